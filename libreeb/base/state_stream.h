@@ -22,6 +22,11 @@ class DamagedState : public std::exception {
   const char* what() const noexcept override { return "the saved state is damaged"; }
 };
 
+// For what was restored. THROWS: DamagedState.
+inline void require_state(bool is_sound) {
+  if (!is_sound) throw DamagedState();
+}
+
 class StateWriter {
  public:
   StateWriter() = default;

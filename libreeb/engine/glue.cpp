@@ -321,7 +321,7 @@ void Glue::restore(StateReader& in) {
 
 void Glue::restore_nodes() {
   node_of_.clear();
-  if (first_link_.size() > graph_.node_slots()) throw DamagedState();
+  require_state(first_link_.size() <= graph_.node_slots());
   grow_first_link(graph_.node_slots());
   for (Index n = 0; n < first_link_.size(); ++n)
     if (graph_.is_incomplete(n) && node_of_.find_or_insert(graph_.key(n).vertex.value(), n) != n) throw DamagedState();
@@ -329,34 +329,31 @@ void Glue::restore_nodes() {
 
 // Every link is in one list, and every path belongs to one edge between incomplete nodes.
 void Glue::restore_edges(LiveGraph::PathTops tops) {
-  const auto require = [](bool sound) {
-    if (!sound) throw DamagedState();
-  };
   edge_of_.clear();
-  require(links_.size() == 2 * edges_.size());
+  require_state(links_.size() == 2 * edges_.size());
   std::vector<bool> is_free(edges_.size());
   for (Index e = first_free_edge_; e != kNone; e = edges_[e].top) {
-    require(e < edges_.size() && !is_free[e]);
+    require_state(e < edges_.size() && !is_free[e]);
     is_free[e] = true;
   }
   std::size_t links = 0;
   for (Index n = 0; n < first_link_.size(); ++n) {
     if (!graph_.is_incomplete(n)) continue;
     for (Index l = first_link_[n], before = kNone; l != kNone; before = l, l = links_[l].next, ++links) {
-      require(l < links_.size() && !is_free[l / 2] && links_[l].prev == before && links < links_.size());
-      require((l % 2 == 0 ? edges_[l / 2].lo : edges_[l / 2].hi) == n);
+      require_state(l < links_.size() && !is_free[l / 2] && links_[l].prev == before && links < links_.size());
+      require_state((l % 2 == 0 ? edges_[l / 2].lo : edges_[l / 2].hi) == n);
     }
   }
   for (Index e = 0; e < edges_.size(); ++e) {
     if (is_free[e]) continue;
     const Edge& edge = edges_[e];
-    require(edge_of_.find_or_insert(edge_key(edge.lo, edge.hi), e) == e);
+    require_state(edge_of_.find_or_insert(edge_key(edge.lo, edge.hi), e) == e);
     if (edge.top == kNone) continue;
-    require(edge.top < tops.size() && tops[edge.top] && graph_.has_ends(edge.top, edge.lo, edge.hi));
+    require_state(edge.top < tops.size() && tops[edge.top] && graph_.has_ends(edge.top, edge.lo, edge.hi));
     tops[edge.top] = false;
   }
-  require(links == 2 * edge_of_.size());
-  require(std::find(tops.begin(), tops.end(), true) == tops.end());
+  require_state(links == 2 * edge_of_.size());
+  require_state(std::find(tops.begin(), tops.end(), true) == tops.end());
 }
 
 }  // namespace reeb

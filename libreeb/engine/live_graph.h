@@ -1,30 +1,28 @@
 // The part of the Reeb graph that can still change: nodes, arcs, and the paths of mesh edges
 // (the paper's section 2; docs/ARCHITECTURE.md, Why fragments are right).
 //
-// A path is a chain of references, one on each arc of a monotone chain, from the top down; each arc lists the
-// references on it. Two paths with the same ends are zipped: their arcs are merged from above, and the shorter arc
-// cuts the longer one. A node whose vertex is complete (all its simplices are in) is contracted when it has one arc up
-// and one down. A complete node that can never come to that is settled. An arc without references whose ends are
-// settled is written out. So of a bump on a long path only the fork stays here, not the arc to its top.
+// Two paths with the same ends are zipped: their arcs are merged from above, and the shorter arc cuts the longer one. A
+// node whose vertex is complete (all its simplices are in) is contracted when it has one arc up and one down. A
+// complete node that can never come to that is settled. An arc without references whose ends are settled is written
+// out. So of a bump on a long path only the fork stays here, not the arc to its top.
 //
 // Noise (docs/SEMANTICS.md, Noise removal): a leaf whose arc cannot change is removed once a search finds that its
 // saddle has another path that reaches beyond the leaf. The searches are short; a last pass over the whole graph
 // removes the leaves for which they do not suffice.
-//
-// Everything is a 32-bit index into flat arrays with free lists; a reference is 16 bytes.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "libreeb/base/prefetch.h"
 #include "libreeb/base/state_stream.h"
 #include "libreeb/base/sweep_key.h"
 #include "libreeb/containers/growing_array.h"
-#include "libreeb/containers/recycling_array.h"
 #include "libreeb/engine/bead_chains.h"
+#include "libreeb/engine/live_noise.h"
+#include "libreeb/engine/path_graph.h"
 #include "libreeb/graph/bucket_sums.h"
 #include "libreeb/graph/direction.h"
 #include "libreeb/graph/reeb_graph.h"
@@ -37,12 +35,9 @@ namespace reeb {
 
 class LiveGraph {
  public:
-  using Index = std::uint32_t;
-  static constexpr Index kNone = ~Index{0};
-
-  // Incomplete: the node's vertex can get further simplices. Complete: it cannot. Settled: in addition, the node is
-  // certain to be in the final graph, unless noise removal takes it away.
-  enum class State : std::uint8_t { kIncomplete, kComplete, kSettled };
+  using Index = PathGraph::Index;
+  using State = PathGraph::State;
+  static constexpr Index kNone = PathGraph::kNone;
 
   // Settled nodes and arcs go to `sink` when flush() is called, or before if they are many.
   LiveGraph(GraphSink& sink, bool track_positions)
@@ -51,10 +46,8 @@ class LiveGraph {
   LiveGraph(const LiveGraph& other, GraphSink& sink)
       : sink_(&sink),
         track_positions_(false),
-        nodes_(other.nodes_),
-        arcs_(other.arcs_),
-        beads_(other.beads_, BeadChains::WithoutPositions{}),
-        references_(other.references_) {}
+        graph_(other.graph_),
+        beads_(other.beads_, BeadChains::WithoutPositions{}) {}
 
   // As Glue::set_log(). Then there are no beads, since each arc has a number of its own in the log.
   void set_log(ArcLog& log) { log_ = &log; }
@@ -67,10 +60,12 @@ class LiveGraph {
   void release(Index arc);
   // The embedding of an arc that was just added. REQUIRES: buckets of the exponent in the options.
   void add_buckets(Index arc, std::span<const BucketSum> buckets);
-  const SweepKey& key(Index node) const { return nodes_[node].key; }
-  std::size_t node_slots() const { return nodes_.size(); }  // more than the index of any node
-  std::size_t arc_slots() const { return arcs_.size(); }
-  bool is_incomplete(Index node) const { return nodes_[node].used && nodes_[node].state == State::kIncomplete; }
+  const SweepKey& key(Index node) const { return graph_.nodes[node].key; }
+  std::size_t node_slots() const { return graph_.nodes.size(); }  // more than the index of any node
+  std::size_t arc_slots() const { return graph_.arcs.size(); }
+  bool is_incomplete(Index node) const {
+    return graph_.nodes[node].used && graph_.nodes[node].state == State::kIncomplete;
+  }
 
   // Puts a reference on `arc` above the path that starts with `below` (kNone: nothing), and returns it. A path is named
   // by its top reference.
@@ -78,10 +73,10 @@ class LiveGraph {
   // Reads what a zip reads of the arc of a reference, so that it is in the cache then; returns the next reference of
   // the path.
   Index prefetch(Index reference) const {
-    const Node& node = nodes_[arcs_[references_[reference].arc].lo()];
+    const Node& node = graph_.nodes[graph_.arcs[graph_.references[reference].arc].lo()];
     reeb::prefetch(&node.key);
     reeb::prefetch(&node.state);
-    return references_[reference].down;
+    return graph_.references[reference].down;
   }
   // Merges two paths with the same ends into one. `a` stays a valid top, `b` does not.
   void zip(Index a, Index b);
@@ -102,32 +97,33 @@ class LiveGraph {
   // Returns the tops of all paths, for the owner of the paths to check.
   // THROWS: DamagedState unless the state can be continued from. Then this object must not be used.
   PathTops restore(StateReader& in);
-  bool has_ends(Index top, Index lo, Index hi) const;  // whether the path leads from `hi` down to `lo`
+  // Whether the path leads from `hi` down to `lo`.
+  bool has_ends(Index top, Index lo, Index hi) const { return graph_.has_ends(top, lo, hi); }
 
   // Calls visit_node(node) for each node, and then visit_arc(arc, lo, hi) for each arc. REQUIRES: as save().
   template <class VisitNode, class VisitArc>
   void visit(const VisitNode& visit_node, const VisitArc& visit_arc) const {
-    for (Index n = 0; n < nodes_.size(); ++n)
-      if (nodes_[n].used) visit_node(n);
-    for (Index a = 0; a < arcs_.size(); ++a)
-      if (!arcs_[a].is_free()) visit_arc(a, arcs_[a].lo(), arcs_[a].hi());
+    for (Index n = 0; n < graph_.nodes.size(); ++n)
+      if (graph_.nodes[n].used) visit_node(n);
+    for (Index a = 0; a < graph_.arcs.size(); ++a)
+      if (!graph_.arcs[a].is_free()) visit_arc(a, graph_.arcs[a].lo(), graph_.arcs[a].hi());
   }
   // Calls visit(arc) for the arcs of the path that starts with `top`, from above.
   template <class Visit>
   void visit_path(Index top, const Visit& visit) const {
-    for (; top != kNone; top = references_[top].down) visit(references_[top].arc);
+    for (; top != kNone; top = graph_.references[top].down) visit(graph_.references[top].arc);
   }
   // An arc with beads is a chain of arcs. Calls visit_bead(key, position) for each bead, from above, and before that
   // visit_bucket(bucket) for the buckets of the arc above it, ascending; in the end for those of the lowest arc.
   template <class VisitBead, class VisitBucket>
   void visit_chain(Index arc, const VisitBead& visit_bead, const VisitBucket& visit_bucket) const {
     if (embeds_) buckets_.visit(arc_buckets_[arc], visit_bucket);
-    beads_.visit(arcs_[arc].beads, [&](Index bead) {
+    beads_.visit(graph_.arcs[arc].beads, [&](Index bead) {
       visit_bead(beads_.key(bead), beads_.position(bead));
       if (embeds_) buckets_.visit(beads_.buckets(bead), visit_bucket);
     });
   }
-  State state(Index node) const { return nodes_[node].state; }
+  State state(Index node) const { return graph_.nodes[node].state; }
   Point position(Index node) const { return track_positions_ ? positions_[node] : Point{}; }
 
   // Appends the arcs and isolated nodes of the present graph, without its (1, 1) nodes and without removed noise.
@@ -135,10 +131,10 @@ class LiveGraph {
 
   // More than the id of any node's vertex.
   std::uint64_t vertex_bound() const;
-  std::size_t node_count() const { return nodes_.used() + beads_.used(); }
-  std::size_t arc_count() const { return arcs_.used() + beads_.used(); }
+  std::size_t node_count() const { return graph_.nodes.used() + beads_.used(); }
+  std::size_t arc_count() const { return graph_.arcs.used() + beads_.used(); }
   std::size_t bead_count() const { return beads_.used(); }
-  std::size_t reference_count() const { return references_.used(); }
+  std::size_t reference_count() const { return graph_.references.used(); }
   std::size_t bucket_count() const { return buckets_.used(); }
   std::size_t path_arc_count() const;                             // of all paths, with beads. O(live).
   std::uint64_t removed_pairs() const { return removed_pairs_; }  // leaves, so far
@@ -151,68 +147,14 @@ class LiveGraph {
   void validate() const;
 
  private:
-  struct Node {
-    SweepKey key;
-    // The lists of its arcs and their lengths, indexed by which end of the arc is at this node: arcs up from the node
-    // have their lower end here, so they are in the list first_at[kDown].
-    std::array<Index, 2> first_at;
-    std::array<std::uint32_t, 2> degree_at;
-    std::uint32_t referenced_arcs;  // arcs at this node that have references
-    State state;
-    bool intact : 1;  // no arc of it was written out
-    bool queued : 1;  // in changed_
-    bool used : 1;
-    bool near_noise : 1;  // it has or had an arc that is noise or might become noise
-
-    // Its first arc in direction d, and the number of arcs there.
-    Index first(Direction d) const { return first_at[opposite(d)]; }
-    std::uint32_t degree(Direction d) const { return degree_at[opposite(d)]; }
-    std::uint32_t degree() const { return degree_at[kDown] + degree_at[kUp]; }
-    Index& next_free() { return first_at[kDown]; }
-  };
-  // An arc's neighbours in a list.
-  struct Links {
-    Index next, prev;
-  };
-  struct Arc {
-    std::array<Index, 2> end;    // by side; end[kDown] == kNone: free
-    std::array<Links, 2> links;  // by side: among the arcs that have the same end there
-    Index first_reference;
-    std::uint32_t references;
-    BeadChains::Chain beads;
-
-    Index lo() const { return end[kDown]; }
-    Index hi() const { return end[kUp]; }
-    bool is_free() const { return lo() == kNone; }
-    // The next arc in direction d of the node that both leave in that direction.
-    Index next(Direction d) const { return links[opposite(d)].next; }
-    Index& next_free() { return links[kDown].next; }
-  };
-  struct Reference {
-    Index arc;
-    Index next, prev;  // on the arc; next also links free references
-    Index down;        // the next one on the path
-
-    Index& next_free() { return next; }
-  };
+  using Node = PathGraph::Node;
+  using Arc = PathGraph::Arc;
 
   PathTops check_restored();
   void check_restored_nodes();
   void check_restored_arcs();
-  void check_restored_lists() const;
-  PathTops check_restored_paths();
-  void attach(Index arc, Direction side, Index node);
-  void detach(Index arc, Direction side);
-  void detach(Index arc) {
-    detach(arc, kDown);
-    detach(arc, kUp);
-  }
-  void free_arc(Index arc);
-  void free_node(Index node);
   void grow_arc_buckets();
   void prefetch_buckets(Index a, Index b) const;
-  void link(Index r, Index arc);
-  void unlink(Index r);
   void merge_parallel(Index keep, Index gone);
   void zip_beads(Index into, Index from, Index top, Index bottom);
   void cut(Index longer, Index shorter);
@@ -222,17 +164,8 @@ class LiveGraph {
   bool is_pass_through(const Node& n) const { return n.intact && n.degree(kUp) == 1 && n.degree(kDown) == 1; }
   bool stays_for_good(const Node& node) const;
   bool can_leave(Index arc) const;
-  void set_noise(double below);
-  double length(Index arc) const { return nodes_[arcs_[arc].hi()].key.value - nodes_[arcs_[arc].lo()].key.value; }
-  // An arc with beads does not end at a saddle that could lose it: arcs of its next node were written out.
-  bool is_noise(Index arc) const { return length(arc) < noise_below_ && arcs_[arc].beads.empty(); }
-  static bool has_one_arc(const Node& n) { return n.degree() == 1; }
-  void notice_noise(Index arc);
-  void notice_noise_at(Index node);
-  bool is_leaf(const Node& n) const;
   void remove_noise_at(Index node);
   void try_leaf(Index leaf);
-  bool find_path_beyond(Index from, Index leaf, Direction d);
   void add_path_buckets(Index arc, Direction d, double leaf);
   void move_buckets(Index arc, Index leaf, Direction d);
   bool is_bead(const Node& n) const;
@@ -249,13 +182,10 @@ class LiveGraph {
   GraphSink* sink_;
   ArcLog* log_ = nullptr;
   bool track_positions_;
-  RecyclingArray<Node> nodes_;
+  PathGraph graph_;
   GrowingArray<Point> positions_;  // one per node, if tracked
-  RecyclingArray<Arc> arcs_;
   BeadChains beads_;
-  RecyclingArray<Reference> references_;
-  double noise_below_ = 0;
-  double noticed_below_ = 0;  // at both ends of a leaf's arc that is shorter, near_noise is set
+  NearNoise noise_;
   bool embeds_ = false;
   BucketLists buckets_;
   // One per arc, if there is an embedding: of the arc, or from its upper end to its first bead.
