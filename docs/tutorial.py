@@ -41,7 +41,8 @@ for type_, lo, hi, persistence in pairs[["type", "lo", "hi", "persistence"]][:5]
 
 # %% [markdown]
 # There is one loop, the hole of the torus, and it is much larger than the noise. A level of the graph has only the
-# features above a threshold, here ten per cent of the range of heights:
+# features above a threshold, here ten per cent of the range of heights. It is named by the least threshold that yields
+# the same level:
 
 # %%
 level = graph.level("10%")
