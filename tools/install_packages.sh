@@ -59,8 +59,8 @@ apt() {
 }
 
 # Of two tests that ask at once, the second one waits, and finds what the first has installed.
-exec 9<"$0"
-if command -v flock >/dev/null; then flock 9; fi
+exec 9</var/lib/dpkg
+flock 9 || true
 find_missing
 
 echo "installing Debian packages: ${missing[*]}"
@@ -70,6 +70,7 @@ install() { apt install --yes --no-install-recommends "${missing[@]}" >"$log" 2>
 # Package lists can be missing or old: fetch them only if the first attempt fails.
 if ! install; then
   echo "fetching the package lists"
-  apt update >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+  # Their lock is not waited for by apt-get.
+  apt update >"$log" 2>&1 || { sleep 20; apt update >"$log" 2>&1; } || { cat "$log" >&2; exit 1; }
   install || { cat "$log" >&2; exit 1; }
 fi

@@ -101,7 +101,7 @@ Bucket packed_end(std::span<const std::byte> packed, Direction d) {
   const std::uint64_t count = in.varint();
   Bucket bucket;
   std::int64_t index = get_bucket(in, 0, bucket);
-  for (std::uint64_t i = 1; d == kUp && i < count; ++i) {
+  for (std::uint64_t i = 1; d == kUp && i < count && in.ok(); ++i) {
     bucket = {};
     index = get_bucket(in, index, bucket);
   }

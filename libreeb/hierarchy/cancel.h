@@ -16,14 +16,14 @@
 namespace reeb {
 
 // The most memory that build_hierarchy() holds, including the graph and its buckets. With an embedding, `lists` is its
-// PackedLists::memory_bytes(). Only buckets that are cut over and over could exceed it.
+// PackedLists::memory_bytes(). Only buckets that are cut over and over could exceed it, or a loop of millions of arcs.
 std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::optional<std::uint64_t> lists);
 
 // How build_hierarchy() works; the result does not depend on it.
 struct HierarchyWork {
   Poll poll = {};
   DoBoth both = {};
-  RingTurns* turns = nullptr;          // of the two threads; without it, one thread cancels
+  RingTurns* turns = nullptr;          // with it, two threads cancel: `both` must run its functions at the same time
   std::optional<RunAhead> ahead = {};  // nothing: RunAhead::for_arcs()
 };
 

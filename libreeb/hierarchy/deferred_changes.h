@@ -150,6 +150,7 @@ class DeferredChanges {
  private:
   using Kind = ArcNote::Kind;
   static constexpr NodeId kNoNode = ArcNote::kNoNode;
+  static_assert((1u << 16) % RingTurns::kSlots == 0);  // numbers of lists go on after 2^16
 
   struct List {
     alignas(64) std::vector<ArcNote> notes;  // two threads change neighbouring lists

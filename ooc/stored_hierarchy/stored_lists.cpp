@@ -15,14 +15,17 @@ std::span<const std::byte> StoredLists::of(std::size_t arc) const {
   if (place.begin >= written_)
     return std::span(buffer_).subspan(static_cast<std::size_t>(place.begin - written_), place.bytes);
   if (place.bytes > kSlotBytes) {
+    if (long_begin_ == place.begin) return long_list_;
+    long_begin_ = kNowhere;
     long_list_.resize(place.bytes);
     file_.read_at(place.begin, long_list_);
+    long_begin_ = place.begin;
     return long_list_;
   }
   Slot& slot = slots_[arc % kSlots];
   const std::span<std::byte> bytes = std::span(slot.bytes).first(place.bytes);
   if (slot.begin != place.begin) {
-    slot.begin = ~std::uint64_t{0};
+    slot.begin = kNowhere;
     file_.read_at(place.begin, bytes);
     slot.begin = place.begin;
   }

@@ -14,7 +14,7 @@
 namespace reeb::ooc {
 
 // A list that changes is appended to the file; the former one stays there. Short lists that were read lately are in
-// memory, since a step asks for a list several times.
+// memory, and the last long one, since a step asks for a list several times.
 //
 // THROWS: Error{kResource} if the disk is full.
 // MEMORY: the places of lists, as `tables` say; buffers of about 200 KB, and the longest list.
@@ -36,11 +36,12 @@ class StoredLists {
 
  private:
   static constexpr std::size_t kBufferBytes = 64 << 10, kSlots = 512, kSlotBytes = 256;
+  static constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
   struct Place {
     std::uint64_t begin = 0, bytes = 0;
   };
   struct Slot {
-    std::uint64_t begin = ~std::uint64_t{0};
+    std::uint64_t begin = kNowhere;
     std::array<std::byte, kSlotBytes> bytes;
   };
 
@@ -51,6 +52,7 @@ class StoredLists {
   std::vector<std::byte> buffer_;  // what follows them
   mutable std::vector<Slot> slots_;
   mutable std::vector<std::byte> long_list_;
+  mutable std::uint64_t long_begin_ = kNowhere;
 };
 
 }  // namespace reeb::ooc

@@ -16,6 +16,7 @@ class ThreadTurns : public RingTurns {
     std::unique_lock lock(mutex_);
     ++full_;
     if (user_waits_ && full_ >= kSlots / 2) changed_.notify_all();
+    if (is_stopped_) return false;
     return full_ < kSlots || wait(lock, kSlots / 2);
   }
   bool wait_until_used(std::size_t most) override {
