@@ -55,17 +55,18 @@ class RecyclingArray {
     recent_count_ = std::min(recent_count_ + 1, kRecent);
   }
 
-  // Three parts, so that the owner decides where each is stored.
-  void save(StateWriter& out) const { elements_.save(out); }
-  void save_first_free(StateWriter& out) const { out.put(first_free_); }
-  void save_free_count(StateWriter& out) const { out.put(std::uint64_t{free_}); }
-  void restore(StateReader& in) { elements_.restore(in); }
-  void restore_first_free(StateReader& in) {
+  void save(StateWriter& out) const {
+    elements_.save(out);
+    out.put(first_free_);
+    out.put(std::uint64_t{free_});
+  }
+  void restore(StateReader& in) {
+    elements_.restore(in);
     in.get(first_free_);
+    free_ = static_cast<std::size_t>(in.get<std::uint64_t>());
     recent_count_ = 0;
   }
-  void restore_free_count(StateReader& in) { free_ = static_cast<std::size_t>(in.get<std::uint64_t>()); }
-  // Which elements are free. To be called when all three parts were restored.
+  // Which elements are free, of what was restored.
   // THROWS: DamagedState unless the list of free elements is one, and has as many as are said to be free.
   std::vector<bool> restored_free() {
     std::vector<bool> is_free(elements_.size());

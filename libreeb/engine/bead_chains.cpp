@@ -43,15 +43,11 @@ std::size_t BeadChains::growth_bytes(std::size_t beads) const {
 void BeadChains::save(StateWriter& out) const {
   beads_.save(out);
   positions_.save(out);
-  beads_.save_first_free(out);
-  beads_.save_free_count(out);
 }
 
 void BeadChains::restore(StateReader& in) {
   beads_.restore(in);
   positions_.restore(in);
-  beads_.restore_first_free(in);
-  beads_.restore_free_count(in);
   if (positions_.size() != (track_positions_ ? beads_.size() : 0)) throw DamagedState();
 }
 

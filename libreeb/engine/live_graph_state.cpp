@@ -18,17 +18,9 @@ void LiveGraph::save(StateWriter& out) const {
   out.put(embeds_);
   buckets_.save(out);
   arc_buckets_.save(out);
-  graph_.nodes.save(out);
+  graph_.save(out);
   positions_.save(out);
-  graph_.arcs.save(out);
   beads_.save(out);
-  graph_.references.save(out);
-  graph_.nodes.save_first_free(out);
-  graph_.arcs.save_first_free(out);
-  graph_.references.save_first_free(out);
-  graph_.nodes.save_free_count(out);
-  graph_.arcs.save_free_count(out);
-  graph_.references.save_free_count(out);
 }
 
 LiveGraph::PathTops LiveGraph::restore(StateReader& in) {
@@ -38,17 +30,9 @@ LiveGraph::PathTops LiveGraph::restore(StateReader& in) {
   embeds_ = in.get_bool();
   buckets_.restore(in);
   arc_buckets_.restore(in);
-  graph_.nodes.restore(in);
+  graph_.restore(in);
   positions_.restore(in);
-  graph_.arcs.restore(in);
   beads_.restore(in);
-  graph_.references.restore(in);
-  graph_.nodes.restore_first_free(in);
-  graph_.arcs.restore_first_free(in);
-  graph_.references.restore_first_free(in);
-  graph_.nodes.restore_free_count(in);
-  graph_.arcs.restore_free_count(in);
-  graph_.references.restore_free_count(in);
   return check_restored();
 }
 

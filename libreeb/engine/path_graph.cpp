@@ -1,7 +1,5 @@
 #include "libreeb/engine/path_graph.h"
 
-#include "libreeb/base/state_stream.h"
-
 namespace reeb {
 
 void PathGraph::free_arc(Index a) {
@@ -57,6 +55,18 @@ bool PathGraph::has_ends(Index top, Index lo, Index hi) const {
   if (arcs[references[top].arc].hi() != hi) return false;
   while (references[top].down != kNone) top = references[top].down;
   return arcs[references[top].arc].lo() == lo;
+}
+
+void PathGraph::save(StateWriter& out) const {
+  nodes.save(out);
+  arcs.save(out);
+  references.save(out);
+}
+
+void PathGraph::restore(StateReader& in) {
+  nodes.restore(in);
+  arcs.restore(in);
+  references.restore(in);
 }
 
 void PathGraph::check_restored_lists() const {

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "libreeb/base/state_stream.h"
 #include "libreeb/base/sweep_key.h"
 #include "libreeb/containers/recycling_array.h"
 #include "libreeb/engine/bead_chains.h"
@@ -91,6 +92,8 @@ struct PathGraph {
   // Whether the path leads from `hi` down to `lo`.
   bool has_ends(Index top, Index lo, Index hi) const;
 
+  void save(StateWriter& out) const;
+  void restore(StateReader& in);
   // For what was restored, once all indices are known to be in range.
   // THROWS: DamagedState unless each node lists its arcs, and each reference is below at most one other, on an arc that
   //         begins where the arc of the other ends. The second returns, by reference, whether it is the top of a path.
