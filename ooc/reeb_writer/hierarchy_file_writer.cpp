@@ -11,7 +11,7 @@
 namespace reeb::ooc {
 namespace {
 
-constexpr std::uint32_t kNotIntroduced = ~std::uint32_t{0};
+constexpr std::uint32_t kNotIntroduced = ~std::uint32_t{0}, kNoted = kNotIntroduced - 1;  // instead of an index
 
 class HierarchyFileWriter {
  public:
@@ -112,11 +112,11 @@ class HierarchyFileWriter {
     for (const ArcVersion& arc : arcs_)
       for (const NodeId end : {arc.lo, arc.hi})
         if (file_index_[end.value()] == kNotIntroduced) {
+          file_index_[end.value()] = kNoted;
           new_nodes_.push_back(end.value());
           hierarchy_.prefetch(end);
         }
     std::sort(new_nodes_.begin(), new_nodes_.end());
-    new_nodes_.erase(std::unique(new_nodes_.begin(), new_nodes_.end()), new_nodes_.end());
     for (const std::uint32_t node : new_nodes_) {
       file_index_[node] = introduced_++;
       frame.nodes.push_back(hierarchy_.node(NodeId(node)));
