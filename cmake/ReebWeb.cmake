@@ -22,7 +22,7 @@ function(reeb_web_pages)
       COMMENT "Installing the npm packages of tools/web" VERBATIM)
     file(GLOB_RECURSE parts CONFIGURE_DEPENDS "${source}/*.js" "${source}/*.mjs" "${source}/*.html" "${source}/*.css"
       "${PROJECT_SOURCE_DIR}/tools/viewer/*")
-    # With threads in the background, Node.js can wait for ever where promises are awaited and nothing else is to do:
+    # With background threads, Node.js can hang while it awaits a promise and has nothing else to do:
     # https://github.com/nodejs/node/issues/54918
     add_custom_command(OUTPUT "${pages}" BYPRODUCTS "${folder}/viewer.html"
       COMMAND "${REEB_NODE}" --single-threaded "${source}/build.mjs" "${folder}" "${pages}"

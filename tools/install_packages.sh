@@ -35,9 +35,9 @@ find_missing() {
   for package in "${packages[@]}"; do
     is_installed "$package" || missing+=("$package")
   done
-  [[ ${#missing[@]} -gt 0 ]] || exit 0
+  [[ ${#missing[@]} -gt 0 ]]
 }
-find_missing
+find_missing || exit 0
 
 if ! command -v apt-get >/dev/null; then
   echo "error: these Debian packages are missing, and there is no apt-get: ${missing[*]}" >&2
@@ -53,7 +53,7 @@ if [[ $(id -u) -ne 0 ]]; then
 fi
 
 apt() {
-  # Programs that are not ours can hold the lock, too: such as a daily upgrade.
+  # Other programs, such as a daily upgrade, can hold apt's lock.
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300 "$@" \
     </dev/null 9<&-
 }
@@ -61,7 +61,7 @@ apt() {
 # Of two tests that ask at once, the second one waits, and finds what the first has installed.
 exec 9</var/lib/dpkg
 flock 9 || true
-find_missing
+find_missing || exit 0
 
 echo "installing Debian packages: ${missing[*]}"
 log=$(mktemp)
@@ -70,7 +70,7 @@ install() { apt install --yes --no-install-recommends "${missing[@]}" >"$log" 2>
 # Package lists can be missing or old: fetch them only if the first attempt fails.
 if ! install; then
   echo "fetching the package lists"
-  # Their lock is not waited for by apt-get.
+  # apt-get does not wait for the lock of the lists.
   apt update >"$log" 2>&1 || { sleep 20; apt update >"$log" 2>&1; } || { cat "$log" >&2; exit 1; }
   install || { cat "$log" >&2; exit 1; }
 fi

@@ -1,5 +1,5 @@
 // The part of the Reeb graph that can still change: nodes, arcs, and the paths of mesh edges
-// (the paper's section 2; docs/ARCHITECTURE.md, Why fragments are right).
+// (the paper's section 2; docs/ARCHITECTURE.md, Why fragments are right). path_graph.h says how they are stored.
 //
 // Two paths with the same ends are zipped: their arcs are merged from above, and the shorter arc cuts the longer one. A
 // node whose vertex is complete (all its simplices are in) is contracted when it has one arc up and one down. A

@@ -1,8 +1,6 @@
 // Noise removal in the live graph.
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <utility>
 
 #include "libreeb/engine/live_graph.h"
 

@@ -1,6 +1,5 @@
 // The whole state of the live graph: saved and restored between two fragments, and checked.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>

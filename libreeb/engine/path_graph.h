@@ -3,8 +3,8 @@
 // A path is a chain of references, one on each arc of a monotone chain, from the top down; each arc lists the
 // references on it. A node lists its arcs, up and down.
 //
-// Everything is a 32-bit index into flat arrays with free lists; a reference is 16 bytes. The functions keep the links;
-// what is done with the graph is up to its owner (live_graph.h).
+// Everything is a 32-bit index into flat arrays with free lists; a reference is 16 bytes. The functions keep the links
+// consistent; what is done with the graph is up to its owner (live_graph.h).
 #pragma once
 
 #include <array>
@@ -81,7 +81,7 @@ struct PathGraph {
     detach(arc, kDown);
     detach(arc, kUp);
   }
-  // REQUIRES: the arc is detached and without references; the node has no arcs.
+  // REQUIRES: the arc is detached, and no reference is on it; the node has no arcs.
   void free_arc(Index arc);
   void free_node(Index node);
   // Puts a reference on an arc, or takes it away. Neither counts the arc at its ends (referenced_arcs).

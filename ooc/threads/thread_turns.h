@@ -16,12 +16,13 @@ class ThreadTurns : public RingTurns {
     std::unique_lock lock(mutex_);
     ++full_;
     if (user_waits_ && full_ >= kSlots / 2) changed_.notify_all();
-    if (is_stopped_) return false;
-    return full_ < kSlots || wait(lock, kSlots / 2);
+    if (full_ == kSlots) wait(lock, kSlots / 2);
+    return !is_stopped_;
   }
   bool wait_until_used(std::size_t most) override {
     std::unique_lock lock(mutex_);
-    return full_ <= most || wait(lock, most);
+    if (full_ > most) wait(lock, most);
+    return !is_stopped_;
   }
   void close() override {
     const std::lock_guard lock(mutex_);
@@ -53,13 +54,12 @@ class ThreadTurns : public RingTurns {
   void unlock() override { alone_.unlock(); }
 
  private:
-  bool wait(std::unique_lock<std::mutex>& lock, std::size_t most) {
+  void wait(std::unique_lock<std::mutex>& lock, std::size_t most) {
     awaited_ = most;
     filler_waits_ = true;
     if (user_waits_) changed_.notify_all();
     changed_.wait(lock, [this] { return full_ <= awaited_ || is_stopped_; });
     filler_waits_ = false;
-    return !is_stopped_;
   }
 
   std::mutex mutex_, alone_;

@@ -9,3 +9,14 @@ check() {  # check WHAT COMMAND...: the command succeeds
   shift
   if "$@" >log 2>&1; then echo "ok: $what"; else echo "FAILED: $what"; cat log; failures=$((failures + 1)); fi
 }
+by_pkg_config() {  # by_pkg_config CXX PKG_CONFIG_PATH: a program of another project, built with the library, runs
+  cat >online.cpp <<'END'
+#include "reeb/reeb.h"
+int main() {
+  reeb::OnlineReeb online;
+  online.add_simplex({{online.add_vertex(0), online.add_vertex(1)}});
+  return online.snapshot().arc_count() == 1 ? 0 : 1;
+}
+END
+  "$1" -O0 online.cpp $(PKG_CONFIG_PATH=$2 pkg-config --cflags --libs --static reeb) -o online && ./online
+}

@@ -73,19 +73,7 @@ END
 mkdir tree
 for file in out/*.deb; do dpkg-deb -x "$file" tree; done
 check "the program and the module, unpacked" bash use.sh "$work/tree/usr" "$work"
-against_the_library() {
-  cat >online.cpp <<'END'
-#include "reeb/reeb.h"
-int main() {
-  reeb::OnlineReeb online;
-  online.add_simplex({{online.add_vertex(0), online.add_vertex(1)}});
-  return online.snapshot().arc_count() == 1 ? 0 : 1;
-}
-END
-  c++ -O0 online.cpp $(PKG_CONFIG_PATH=$(dirname "$(find tree -name reeb.pc)") pkg-config --cflags --libs --static reeb) \
-    -o online && ./online
-}
-check "the library, unpacked" against_the_library
+check "the library, unpacked" by_pkg_config c++ "$(dirname "$(find tree -name reeb.pc)")"
 
 if [[ $more == root ]]; then
   # The library is in lib, as in any other prefix; its packages are not for cross-compilation.

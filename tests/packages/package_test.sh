@@ -52,19 +52,7 @@ check "COMPONENTS cellar" found "COMPONENTS;reeb;cellar" 'found: (0|FALSE); why 
 check "OPTIONAL_COMPONENTS cellar" found "COMPONENTS;reeb;OPTIONAL_COMPONENTS;cellar" 'found: (1|TRUE)'
 
 # Without CMake.
-cat >online.cpp <<'END'
-#include "reeb/reeb.h"
-int main() {
-  reeb::OnlineReeb online;
-  online.add_simplex({{online.add_vertex(0), online.add_vertex(1)}});
-  return online.snapshot().arc_count() == 1 ? 0 : 1;
-}
-END
-by_pkg_config() {
-  "$cxx" -O0 online.cpp $(PKG_CONFIG_PATH="$work/prefix/lib/pkgconfig:$(echo "$work"/prefix/lib/*/pkgconfig)" \
-    pkg-config --cflags --libs --static reeb) -o online && ./online
-}
-check "pkg-config" by_pkg_config
+check "pkg-config" by_pkg_config "$cxx" "$work/prefix/lib/pkgconfig:$(echo "$work"/prefix/lib/*/pkgconfig)"
 
 # A plain configuration.
 plain() { cmake -S "$source" -B plain -DCMAKE_CXX_COMPILER="$cxx" | tee plain.log && grep -q 'Release build' plain.log && grep -q 'CMAKE_BUILD_TYPE:STRING=Release' plain/CMakeCache.txt; }

@@ -267,7 +267,7 @@ check('a narrow window is not wider', (await browser.evaluate(`document.document
 // An address that is changed, by hand or by the history; but not one of a place in the page.
 await browser.evaluate(`location.hash = '#t=${levels[0].threshold}'`)
 check('a changed address changes the view', await until(`document.getElementById('drawn').dataset.nodes === '${levels[0].nodes}'`, 5000), await drawn())
-// Also where the page writes what it shows before it is told of the change: when the loop ends, both timers are due.
+// Also if the page is about to write what it shows: when the loop ends, both timers are due, that of the change first.
 await pause(1000)
 await browser.evaluate(`(() => {
   addEventListener('hashchange', () => {

@@ -62,6 +62,14 @@ TEST(PackedBuckets, TheEndsAreFoundInTheWholeList) {
   }
 }
 
+// Without a look at what is left, this would take years.
+TEST(PackedBuckets, TheEndOfAListThatIsCutIsFoundAtOnce) {
+  std::vector<std::byte> packed;
+  BucketPacker packer(std::uint64_t{1} << 60, packed);
+  packer.add({5, 1, {0.5, 1, 2}});
+  packed_end(packed, kUp);
+}
+
 TEST(PackedBuckets, SingleVerticesInSinglePrecisionTakeFourteenBytes) {
   std::vector<std::byte> packed;
   pack_buckets(std::vector<Bucket>{{5, 1, {0.5, 1, 2}}, {6, 1, {0.1f, 1, 2}}}, packed);

@@ -59,22 +59,22 @@ TEST(ThreadTurns, WaitsUntilWhatWasFilledIsUsed) {
 
 TEST(ThreadTurns, WhoeverFillsIsToldThatTheOtherHasStopped) {
   ThreadTurns turns;
+  for (std::size_t filled = 1; filled < RingTurns::kSlots; ++filled) ASSERT_TRUE(turns.filled());
   std::thread user([&] {
     ASSERT_TRUE(turns.next());
     turns.stop();
   });
-  std::size_t filled = 1;
-  while (turns.filled()) ++filled;
-  EXPECT_LE(filled, RingTurns::kSlots);
+  EXPECT_FALSE(turns.filled());
   EXPECT_FALSE(turns.wait_until_used(0));
   user.join();
 }
 
-// Also where there is room for more.
+// Also where there is nothing to wait for.
 TEST(ThreadTurns, NothingMoreIsFilledOnceTheOtherHasStopped) {
   ThreadTurns turns;
   turns.stop();
   EXPECT_FALSE(turns.filled());
+  EXPECT_FALSE(turns.wait_until_used(1));
 }
 
 TEST(ThreadTurns, OneAtATimeBetweenLockAndUnlock) {
