@@ -2,6 +2,7 @@
 // written in them (docs/FORMAT.md, Numbers).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -9,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "libreeb/base/byte_planes.h"
@@ -20,6 +22,15 @@ namespace reeb {
 constexpr std::uint64_t zigzag(std::uint64_t difference) noexcept { return difference << 1 ^ (0 - (difference >> 63)); }
 constexpr std::uint64_t unzigzag(std::uint64_t code) noexcept { return code >> 1 ^ (0 - (code & 1)); }
 
+// LEB128: seven bits per byte, lowest first; the high bit is set on all but the last byte.
+inline constexpr std::size_t kMaxVarintBytes = 10;
+// Writes at most kMaxVarintBytes, and returns their end.
+inline std::byte* put_varint(std::byte* to, std::uint64_t value) {
+  for (; value >= 0x80; value >>= 7) *to++ = static_cast<std::byte>(value | 0x80);
+  *to++ = static_cast<std::byte>(value);
+  return to;
+}
+
 // Appends to a vector that the caller owns.
 class ByteWriter {
  public:
@@ -30,10 +41,27 @@ class ByteWriter {
   void u64(std::uint64_t value) { fixed(value, 8); }
   void f64(double value) { u64(std::bit_cast<std::uint64_t>(value)); }
 
-  // LEB128: seven bits per byte, lowest first; the high bit is set on all but the last byte.
   void varint(std::uint64_t value) {
-    for (; value >= 0x80; value >>= 7) u8(static_cast<std::uint8_t>(value | 0x80));
-    u8(static_cast<std::uint8_t>(value));
+    varints(1, [value](std::size_t) { return value; });
+  }
+  // The varints of value(0), value(1), ... value(count - 1).
+  template <class Value>
+  void varints(std::size_t count, Value value) {
+    constexpr std::size_t kAtOnce = 64;
+    std::array<std::byte, kAtOnce * kMaxVarintBytes> some;
+    for (std::size_t i = 0; i < count;) {
+      std::byte* to = some.data();
+      for (const std::size_t end = std::min(count, i + kAtOnce); i < end; ++i) to = put_varint(to, value(i));
+      out_.insert(out_.end(), some.data(), to);
+    }
+  }
+  // The same for the delta of each number from the one before, and of the first from 0.
+  template <class Number>
+  void deltas(std::size_t count, const Number& number) {
+    varints(count, [&number, before = std::uint64_t{0}](std::size_t i) mutable {
+      const std::uint64_t now = number(i);
+      return zigzag(now - std::exchange(before, now));
+    });
   }
   // The difference a - b modulo 2^64, zigzagged: exact for every pair of numbers.
   void delta(std::uint64_t a, std::uint64_t b) { varint(zigzag(a - b)); }

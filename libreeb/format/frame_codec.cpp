@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "libreeb/base/byte_coding.h"
 #include "libreeb/graph/packed_buckets.h"
@@ -26,11 +27,7 @@ void encode_nodes(std::span<const SettledNode> nodes, bool positions, ByteWriter
     before = bits;
   }
   out.planes(column);
-  before = 0;
-  for (const SettledNode& node : nodes) {
-    out.delta(node.key.vertex.value(), before);
-    before = node.key.vertex.value();
-  }
+  out.deltas(nodes.size(), [&](std::size_t i) { return nodes[i].key.vertex.value(); });
   if (!positions) return;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < nodes.size(); ++i) column[i] = bits_of(nodes[i].position[axis]);
@@ -67,18 +64,13 @@ const char* decode_nodes(ByteReader& in, std::size_t count, bool positions, std:
 
 // `died` is stored as its distance from kNeverDies, which for arcs that never die compresses to almost nothing.
 void encode_arcs(std::span<const FileArc> arcs, ByteWriter& out) {
-  std::uint32_t distance = 0;
-  for (const FileArc& arc : arcs) {
-    out.varint((kNeverDies - arc.died) - distance);
-    distance = kNeverDies - arc.died;
-  }
-  for (const FileArc& arc : arcs) out.varint(arc.born);
-  std::uint64_t before = 0;
-  for (const FileArc& arc : arcs) {
-    out.delta(arc.lo, before);
-    before = arc.lo;
-  }
-  for (const FileArc& arc : arcs) out.delta(arc.hi, arc.lo);
+  out.varints(arcs.size(), [&, distance = std::uint32_t{0}](std::size_t i) mutable {
+    const std::uint32_t now = kNeverDies - arcs[i].died;
+    return now - std::exchange(distance, now);
+  });
+  out.varints(arcs.size(), [&](std::size_t i) { return arcs[i].born; });
+  out.deltas(arcs.size(), [&](std::size_t i) { return arcs[i].lo; });
+  out.varints(arcs.size(), [&](std::size_t i) { return zigzag(arcs[i].hi - arcs[i].lo); });
 }
 
 const char* decode_arcs(ByteReader& in, std::size_t count, std::vector<FileArc>& arcs) {
@@ -194,20 +186,16 @@ const char* decode_spreads(ByteReader& in, std::span<Bucket> buckets) {
 }
 
 void encode_buckets(const GraphFrame& frame, bool has_spreads, ByteWriter& out) {
-  for (const std::uint32_t count : frame.bucket_counts) out.varint(count);
-  std::uint64_t before = 0;
-  for (const Bucket& bucket : frame.buckets) {
-    const auto index = static_cast<std::uint64_t>(bucket.index);
-    out.delta(index, before);
-    before = index;
-  }
-  for (const Bucket& bucket : frame.buckets) out.varint(bucket.count);
-  Column column(frame.buckets.size());
+  const std::vector<Bucket>& buckets = frame.buckets;
+  out.varints(frame.bucket_counts.size(), [&](std::size_t i) { return frame.bucket_counts[i]; });
+  out.deltas(buckets.size(), [&](std::size_t i) { return static_cast<std::uint64_t>(buckets[i].index); });
+  out.varints(buckets.size(), [&](std::size_t i) { return buckets[i].count; });
+  Column column(buckets.size());
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::size_t i = 0; i < column.size(); ++i) column[i] = bits_of(frame.buckets[i].mean[axis]);
+    for (std::size_t i = 0; i < column.size(); ++i) column[i] = bits_of(buckets[i].mean[axis]);
     out.planes(column);
   }
-  if (has_spreads) encode_spreads(frame.buckets, out);
+  if (has_spreads) encode_spreads(buckets, out);
 }
 
 const char* decode_buckets(ByteReader& in, bool has_spreads, GraphFrame& frame) {
@@ -274,12 +262,8 @@ void encode_pairs_frame(std::span<const FilePair> pairs, std::vector<std::byte>&
   ByteWriter out(bytes);
   for (const FilePair& pair : pairs)
     out.u8(static_cast<std::uint8_t>(static_cast<unsigned>(pair.type) | (pair.kept ? 4u : 0u)));
-  std::uint64_t before = 0;
-  for (const FilePair& pair : pairs) {
-    out.delta(pair.lo, before);
-    before = pair.lo;
-  }
-  for (const FilePair& pair : pairs) out.delta(pair.hi, pair.lo);
+  out.deltas(pairs.size(), [&](std::size_t i) { return pairs[i].lo; });
+  out.varints(pairs.size(), [&](std::size_t i) { return zigzag(pairs[i].hi - pairs[i].lo); });
 }
 
 const char* decode_pairs_frame(std::span<const std::byte> payload, const FrameHeader& header,

@@ -12,17 +12,11 @@ namespace {
 using Single = std::array<float, 3>;
 static_assert(kLeastPackedBucketBytes == 2 + sizeof(Single));
 
-constexpr std::size_t kMaxVarintBytes = 10, kMaxBucketBytes = 2 * kMaxVarintBytes + sizeof(Bucket::mean) +
-                                                              sizeof(Bucket::spread) + sizeof(Bucket::rim);
+constexpr std::size_t kMaxBucketBytes =
+    2 * kMaxVarintBytes + sizeof(Bucket::mean) + sizeof(Bucket::spread) + sizeof(Bucket::rim);
 
 bool is_single(const std::array<double, 3>& mean) {
   return std::ranges::all_of(mean, [](double x) { return static_cast<double>(static_cast<float>(x)) == x; });
-}
-
-std::byte* put_varint(std::byte* to, std::uint64_t value) {
-  for (; value >= 0x80; value >>= 7) *to++ = static_cast<std::byte>(value | 0x80);
-  *to++ = static_cast<std::byte>(value);
-  return to;
 }
 
 template <class T>

@@ -26,7 +26,7 @@ class HierarchyFileWriter {
 
   void run(const Poll& poll) {
     std::vector<std::uint64_t> frame_ends;
-    records_.rewind();
+    records_.rewind(RecordSource::Read::kAll);
     std::size_t next = 0;
     read_ahead<PlannedFrame>(
         background_, [&](PlannedFrame& frame) { return next < layout_.cuts.size() && (make(next++, frame), true); },
@@ -95,12 +95,10 @@ class HierarchyFileWriter {
   // The next records with their buckets.
   void read_records(std::uint64_t count, GraphFrame& frame) {
     arcs_.clear();
-    ArcVersion arc;
-    std::span<const std::byte> packed;
-    while (arcs_.size() < count && records_.next(arc, packed)) {
-      arcs_.push_back(arc);
-      for (const NodeId end : {arc.lo, arc.hi}) prefetch(&file_index_[end.value()]);
-      if (header_.flags.has_embedding) frame.add_buckets(packed);
+    for (SourceRecord record; arcs_.size() < count && records_.next(record);) {
+      arcs_.push_back(record.arc);
+      for (const NodeId end : {record.arc.lo, record.arc.hi}) prefetch(&file_index_[end.value()]);
+      if (header_.flags.has_embedding) frame.add_buckets(record.buckets);
     }
   }
 
@@ -166,7 +164,7 @@ void write_hierarchy_file(const std::string& path, const FileMeta& meta, const H
 
 std::uint64_t hierarchy_file_bytes(std::uint64_t nodes, std::uint64_t versions) {
   constexpr std::uint64_t kFrames = 3 << 20;
-  return sizeof(VersionCounts) * versions + sizeof(std::uint32_t) * nodes + kFrames;
+  return sizeof(VersionCounts) * versions + sizeof(std::uint32_t) * nodes + nodes / 8 + kFrames;
 }
 
 void write_hierarchy_file(const std::string& path, const FileMeta& meta, const ReebGraph& graph,

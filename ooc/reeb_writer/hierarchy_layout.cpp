@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "libreeb/base/prefetch.h"
-#include "libreeb/graph/packed_buckets.h"
 #include "ooc/reeb_writer/frame_size.h"
 #include "ooc/threads/read_ahead.h"
 
@@ -18,27 +18,26 @@ namespace {
   throw std::logic_error(std::string("Hierarchy: ") + what + " " + std::to_string(i) + " " + why);
 }
 
+struct CountedArc {
+  ArcVersion arc;
+  std::uint32_t buckets;
+};
+
 // Counts nodes, arcs and buckets of every version from records that come by `died` descending.
 class VersionCounter {
  public:
   VersionCounter(std::size_t node_count, std::size_t versions) : present_from_(node_count, kNever), change_(versions) {}
 
-  bool was_named(NodeId node) const { return present_from_[node.value()] != kNever; }
-
-  // Prefetch what add() accesses: nodes and versions; when these have arrived, the versions that the nodes name.
-  void prefetch(const ArcVersion& arc) const {
-    reeb::prefetch(&change_[arc.born]);
-    for (const NodeId end : {arc.lo, arc.hi}) reeb::prefetch(&present_from_[end.value()]);
-  }
-  void prefetch_next(const ArcVersion& arc) const {
-    for (const NodeId end : {arc.lo, arc.hi})
-      if (const std::uint32_t from = present_from_[end.value()]; arc.born < from && from < change_.size())
-        reeb::prefetch(&change_[from]);
-  }
-
-  void add(const ArcVersion& arc, std::uint64_t buckets) {
-    arrives(arc.born, arc.died, {.arcs = 1, .buckets = buckets});
-    for (const NodeId end : {arc.lo, arc.hi}) add_node(end, arc.born, arc.died);
+  // The nodes of records can be anywhere in memory.
+  void add(std::span<const CountedArc> arcs) {
+    constexpr std::size_t kAhead = 8;
+    for (const auto& [arc, buckets] : arcs) prefetch(arc);
+    for (std::size_t i = 0; i < arcs.size(); ++i) {
+      if (i + kAhead < arcs.size()) prefetch_next(arcs[i + kAhead].arc);
+      const auto& [arc, buckets] = arcs[i];
+      arrives(arc.born, arc.died, {.arcs = 1, .buckets = buckets});
+      for (const NodeId end : {arc.lo, arc.hi}) add_node(end, arc.born, arc.died);
+    }
   }
   void add_isolated(NodeId node) { add_node(node, 0, kNeverDies); }
 
@@ -55,6 +54,17 @@ class VersionCounter {
 
  private:
   static constexpr std::uint32_t kNever = ~std::uint32_t{0};
+
+  // Prefetch what add() accesses: nodes and versions; when these have arrived, the versions that the nodes name.
+  void prefetch(const ArcVersion& arc) const {
+    reeb::prefetch(&change_[arc.born]);
+    for (const NodeId end : {arc.lo, arc.hi}) reeb::prefetch(&present_from_[end.value()]);
+  }
+  void prefetch_next(const ArcVersion& arc) const {
+    for (const NodeId end : {arc.lo, arc.hi})
+      if (const std::uint32_t from = present_from_[end.value()]; arc.born < from && from < change_.size())
+        reeb::prefetch(&change_[from]);
+  }
 
   // Unsigned numbers wrap around, so adding and subtracting cancel out.
   void arrives(std::uint32_t born, std::uint32_t died, const VersionCounts& what) {
@@ -193,6 +203,66 @@ void check_pairs(HierarchySource& hierarchy) {
     if (pair.hi < pair.lo || pair.hi.value() >= hierarchy.node_count()) fail("pair", i, "does not go up to a node");
 }
 
+// Reads records, checks them, and finds their frames.
+class RecordReader {
+ public:
+  RecordReader(HierarchySource& hierarchy, RecordSource& records, std::vector<FrameCut>& cuts)
+      : hierarchy_(hierarchy),
+        records_(records),
+        steps_(static_cast<std::uint32_t>(hierarchy.persistence().size())),
+        named_(hierarchy.node_count()),
+        cutter_(steps_, cuts) {
+    records_.rewind(RecordSource::Read::kCounts);
+  }
+
+  // To be called for all isolated nodes first.
+  void add_isolated(NodeId node) {
+    named_[node.value()] = true;
+    hierarchy_.introduce(node, cutter_.add_isolated());
+  }
+
+  // The next records. False at the end.
+  bool read(std::vector<CountedArc>& some) {
+    constexpr std::size_t kRecordsAtOnce = 512;
+    some.clear();
+    for (SourceRecord record; some.size() < kRecordsAtOnce && records_.next(record); ++count_) {
+      const ArcVersion& arc = record.arc;
+      check_record(arc, count_, named_.size(), steps_);
+      if (arc.died > std::exchange(last_died_, arc.died)) fail("arc", count_, "lives longer than the one before");
+      some.push_back({arc, record.bucket_count});
+      place(record);
+    }
+    return !some.empty();
+  }
+
+  // REQUIRES: read() has returned false. Returns the number of records.
+  std::uint64_t finish() {
+    for (std::size_t node = 0; node < named_.size(); ++node)
+      if (!named_[node]) fail("node", node, "is neither isolated nor named by an arc");
+    cutter_.finish();
+    return count_;
+  }
+
+ private:
+  void place(const SourceRecord& record) {
+    const auto [lo, hi] = std::pair(record.arc.lo, record.arc.hi);
+    const bool is_new_lo = !named_[lo.value()], is_new_hi = !named_[hi.value()];
+    const std::uint32_t new_nodes = (is_new_lo ? 1u : 0u) + (is_new_hi ? 1u : 0u);
+    const std::uint32_t frame = cutter_.add_record(record.arc.died, new_nodes, record.bucket_count);
+    if (is_new_lo) hierarchy_.introduce(lo, frame);
+    if (is_new_hi) hierarchy_.introduce(hi, frame);
+    named_[lo.value()] = named_[hi.value()] = true;
+  }
+
+  HierarchySource& hierarchy_;
+  RecordSource& records_;
+  const std::uint32_t steps_;
+  std::vector<bool> named_;  // by node: a frame introduces it
+  FrameCutter cutter_;
+  std::uint32_t last_died_ = kNeverDies;
+  std::uint64_t count_ = 0;
+};
+
 }  // namespace
 
 HierarchyLayout lay_out(HierarchySource& hierarchy, RecordSource& records, bool background) {
@@ -202,50 +272,17 @@ HierarchyLayout lay_out(HierarchySource& hierarchy, RecordSource& records, bool 
   HierarchyLayout layout;
   {
     VersionCounter counter(node_count, steps + 1);
-    FrameCutter cutter(static_cast<std::uint32_t>(steps), layout.cuts);
+    RecordReader reader(hierarchy, records, layout.cuts);
     const std::span<const NodeId> isolated = hierarchy.isolated();
     for (std::size_t i = 0; i < isolated.size(); ++i) {
       if (isolated[i].value() >= node_count || (i > 0 && !(isolated[i - 1] < isolated[i])))
         fail("isolated node", i, "is not above the one before it");
       counter.add_isolated(isolated[i]);
-      hierarchy.introduce(isolated[i], cutter.add_isolated());
+      reader.add_isolated(isolated[i]);
     }
-    struct Record {
-      ArcVersion arc;
-      std::uint64_t buckets;
-    };
-    constexpr std::size_t kRecordsAtOnce = 512, kAhead = 8;
-    records.rewind();
-    ArcVersion before;
-    std::uint64_t read = 0;
-    const auto read_some = [&](std::vector<Record>& some) {
-      some.clear();
-      ArcVersion arc;
-      for (std::span<const std::byte> packed; some.size() < kRecordsAtOnce && records.next(arc, packed); ++read) {
-        check_record(arc, read, node_count, steps);
-        if (arc.died > std::exchange(before, arc).died) fail("arc", read, "lives longer than the one before");
-        some.push_back({arc, packed_count(packed)});
-      }
-      return !some.empty();
-    };
-    // The nodes of records can be anywhere in memory.
-    const auto count_some = [&](const std::vector<Record>& some) {
-      for (const Record& record : some) counter.prefetch(record.arc);
-      for (std::size_t i = 0; i < some.size(); ++i) {
-        if (i + kAhead < some.size()) counter.prefetch_next(some[i + kAhead].arc);
-        const auto& [arc, buckets] = some[i];
-        const bool is_new_lo = !counter.was_named(arc.lo), is_new_hi = !counter.was_named(arc.hi);
-        counter.add(arc, buckets);
-        const std::uint32_t frame = cutter.add_record(arc.died, (is_new_lo ? 1u : 0u) + (is_new_hi ? 1u : 0u), buckets);
-        if (is_new_lo) hierarchy.introduce(arc.lo, frame);
-        if (is_new_hi) hierarchy.introduce(arc.hi, frame);
-      }
-      layout.records += some.size();
-    };
-    read_ahead<std::vector<Record>>(background, read_some, count_some);
-    for (std::uint32_t node = 0; node < node_count; ++node)
-      if (!counter.was_named(NodeId(node))) fail("node", node, "is neither isolated nor named by an arc");
-    cutter.finish();
+    read_ahead<std::vector<CountedArc>>(
+        background, [&](auto& some) { return reader.read(some); }, [&](const auto& some) { counter.add(some); });
+    layout.records = reader.finish();
     layout.versions = counter.take(hierarchy.persistence());
   }
   layout.levels = level_table(layout, static_cast<std::uint32_t>(steps));

@@ -24,10 +24,10 @@ struct HierarchyLayout {
   std::vector<LevelLine> levels;        // without file_bytes
 };
 
-// Reads all records and pairs, once, and tells `hierarchy` which frame introduces each node. With `background`, one
-// thread reads the records and another counts.
+// Reads all pairs, and all records without their buckets, once, and tells `hierarchy` which frame introduces each node.
+// With `background`, one thread reads the records and finds their frames, and another counts.
 //
-// MEMORY: 32 bytes per version; until it returns, 4 per node.
+// MEMORY: 32 bytes per version; until it returns, 4 1/8 per node.
 // THROWS: std::logic_error that names the first impossible record, pair or step.
 HierarchyLayout lay_out(HierarchySource& hierarchy, RecordSource& records, bool background);
 

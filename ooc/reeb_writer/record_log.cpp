@@ -3,14 +3,26 @@
 #include <cstring>
 #include <utility>
 
+#include "libreeb/graph/packed_buckets.h"
+
 namespace reeb::ooc {
 namespace {
 
-// Follows a record's buckets.
-struct Trailer {
+struct Entry {
   std::uint32_t lo, hi, born, died;
-  std::uint32_t bucket_bytes;
+  std::uint32_t bucket_count, bucket_bytes;
 };
+
+void append(std::vector<std::byte>& to, std::span<const std::byte> bytes) {
+  to.insert(to.end(), bytes.begin(), bytes.end());
+}
+
+// The last bytes, which are taken away.
+std::span<const std::byte> take_last(std::span<const std::byte>& bytes, std::size_t count) {
+  const auto taken = bytes.last(count);
+  bytes = bytes.first(bytes.size() - count);
+  return taken;
+}
 
 }  // namespace
 
@@ -19,59 +31,72 @@ RecordLog::RecordLog(const io::TempDir& temp, MemoryBudget& budget, std::size_t 
       block_bytes_(block_bytes),
       background_(background),
       charge_(budget.reserve("arc records", memory_bytes(block_bytes))) {
-  open_.reserve(block_bytes);
+  for (Block* block : {&open_, &fetched_})
+    for (std::vector<std::byte>* part : {&block->entries, &block->buckets}) part->reserve(block_bytes);
 }
 
 void RecordLog::add(const ArcVersion& record, std::span<const std::byte> buckets) {
-  const std::size_t bytes = buckets.size() + sizeof(Trailer);
-  if (in_open_ != 0 && open_.size() + bytes > block_bytes_) seal_block();
-  const Trailer trailer{record.lo.value(), record.hi.value(), record.born, record.died,
-                        static_cast<std::uint32_t>(buckets.size())};
-  const auto trailing = std::as_bytes(std::span(&trailer, 1));
-  open_.insert(open_.end(), buckets.begin(), buckets.end());
-  open_.insert(open_.end(), trailing.begin(), trailing.end());
-  ++in_open_;
+  if (!open_.entries.empty() && open_.bytes() + buckets.size() + sizeof(Entry) > block_bytes_) seal_block();
+  const Entry entry{record.lo.value(),
+                    record.hi.value(),
+                    record.born,
+                    record.died,
+                    static_cast<std::uint32_t>(packed_count(buckets)),
+                    static_cast<std::uint32_t>(buckets.size())};
+  append(open_.entries, std::as_bytes(std::span(&entry, 1)));
+  append(open_.buckets, buckets);
   ++count_;
 }
 
 void RecordLog::seal_block() {
   writer_.wait();
   if (!file_) file_.emplace(temp_->create_unnamed("arc records"));
-  offsets_.push_back(file_->size());
   std::swap(open_, fetched_);
-  const auto write = [this, records = in_open_] { file_->append(fetched_, records); };
+  BlockPlace& place = places_.emplace_back();
+  const auto write = [this, &place] {
+    place.entries = file_->size();
+    file_->append(fetched_.entries, fetched_.entries.size() / sizeof(Entry));
+    place.buckets = file_->size();
+    file_->append(fetched_.buckets, fetched_.entries.size() / sizeof(Entry));
+  };
   if (background_)
     writer_.start(write);
   else
     write();
-  open_.clear();
-  open_.reserve(block_bytes_);
-  in_open_ = 0;
+  open_.entries.clear();
+  open_.buckets.clear();
 }
 
-void RecordLog::rewind() {
+void RecordLog::rewind(Read what) {
   writer_.wait();
-  blocks_left_ = offsets_.size();
-  unread_ = open_;
+  read_ = what;
+  blocks_left_ = places_.size();
+  unread_entries_ = open_.entries;
+  unread_buckets_ = open_.buckets;
 }
 
-bool RecordLog::next(ArcVersion& record, std::span<const std::byte>& buckets) {
-  if (unread_.empty() && !fetch_block()) return false;
-  Trailer trailer;
-  unread_ = unread_.first(unread_.size() - sizeof(trailer));
-  std::memcpy(&trailer, unread_.data() + unread_.size(), sizeof(trailer));
-  record = {NodeId(trailer.lo), NodeId(trailer.hi), trailer.born, trailer.died};
-  buckets = unread_.last(trailer.bucket_bytes);
-  unread_ = unread_.first(unread_.size() - trailer.bucket_bytes);
+bool RecordLog::next(SourceRecord& record) {
+  if (unread_entries_.empty()) {
+    if (blocks_left_ == 0) return false;
+    fetch_block();
+  }
+  Entry entry;
+  std::memcpy(&entry, take_last(unread_entries_, sizeof(entry)).data(), sizeof(entry));
+  record.arc = {NodeId(entry.lo), NodeId(entry.hi), entry.born, entry.died};
+  record.bucket_count = entry.bucket_count;
+  record.buckets = read_ == Read::kAll ? take_last(unread_buckets_, entry.bucket_bytes) : std::span<const std::byte>();
   return true;
 }
 
-bool RecordLog::fetch_block() {
-  if (blocks_left_ == 0) return false;
-  RunPlace place{offsets_[--blocks_left_], 1};
-  file_->read(place, fetched_);
-  unread_ = fetched_;
-  return true;
+void RecordLog::fetch_block() {
+  const BlockPlace& place = places_[--blocks_left_];
+  const auto read = [this](std::uint64_t offset, std::vector<std::byte>& bytes) {
+    RunPlace one{offset, 1};
+    file_->read(one, bytes);
+    return std::span<const std::byte>(bytes);
+  };
+  unread_entries_ = read(place.entries, fetched_.entries);
+  if (read_ == Read::kAll) unread_buckets_ = read(place.buckets, fetched_.buckets);
 }
 
 }  // namespace reeb::ooc

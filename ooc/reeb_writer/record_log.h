@@ -17,13 +17,13 @@
 
 namespace reeb::ooc {
 
-// A record is its packed buckets, followed by its fields and the byte count of the buckets, so that a block can be read
-// from its end: 20 bytes per record, and its buckets. Each block has a checksum. No file is made while one block is
-// enough.
+// A block holds the packed buckets of its records, one after the other, and apart from them the rest of each record, so
+// that the numbers of buckets are read without the buckets: 24 bytes per record. Each part has a checksum. No file is
+// made while one block is enough.
 //
-// MEMORY: two blocks, and 8 bytes per block of the file.
-// THROWS: Error{kResource} if the disk is full, or returns other bytes than were written, or the budget lacks two
-//         blocks. An error in the background is thrown by a later call.
+// MEMORY: two blocks, of which either part can have all the room, and 16 bytes per block of the file.
+// THROWS: Error{kResource} if the disk is full, or returns other bytes than were written, or the budget lacks
+//         memory_bytes(). An error in the background is thrown by a later call.
 class RecordLog : public RecordSink, public RecordSource {
  public:
   static constexpr std::size_t kBlockBytes = 64 << 10;
@@ -34,7 +34,7 @@ class RecordLog : public RecordSink, public RecordSource {
   }
 
   // The memory of one log.
-  static constexpr std::uint64_t memory_bytes(std::size_t block_bytes = kBlockBytes) { return 2 * block_bytes; }
+  static constexpr std::uint64_t memory_bytes(std::size_t block_bytes = kBlockBytes) { return 4 * block_bytes; }
 
   // `temp` must outlive this. A block holds at least one record, however large. With `background`, a thread writes each
   // block while the next is filled.
@@ -44,31 +44,40 @@ class RecordLog : public RecordSink, public RecordSource {
   void add(const ArcVersion& record, std::span<const std::byte> buckets) override;
 
   // REQUIRES, for everything below: nothing more is added.
-  void rewind() override;
-  bool next(ArcVersion& record, std::span<const std::byte>& buckets) override;
+  void rewind(Read what) override;
+  bool next(SourceRecord& record) override;
 
   std::uint64_t record_count() const { return count_; }
   // REQUIRES: rewind() was called.
   std::uint64_t spilled_bytes() const { return file_ ? file_->size() : 0; }
 
  private:
+  struct Block {
+    std::vector<std::byte> entries, buckets;
+    std::size_t bytes() const { return entries.size() + buckets.size(); }
+  };
+  // Offsets in the file.
+  struct BlockPlace {
+    std::uint64_t entries, buckets;
+  };
+
   void seal_block();
-  bool fetch_block();
+  void fetch_block();
 
   const io::TempDir* temp_;
   const std::size_t block_bytes_;
   const bool background_;
   Reservation charge_;
   std::optional<SortedRunFile> file_;
-  std::vector<std::uint64_t> offsets_;  // of the blocks in the file
-  std::vector<std::byte> open_;         // the block after them
-  std::size_t in_open_ = 0;
+  std::vector<BlockPlace> places_;  // of the blocks in the file
+  Block open_;                      // the block after them
   std::uint64_t count_ = 0;
 
-  std::size_t blocks_left_ = 0;        // in the file, to be read
-  std::vector<std::byte> fetched_;     // a block of the file: that which is being written, or was read
-  std::span<const std::byte> unread_;  // of the current block
-  Worker writer_;                      // of fetched_; the last member, so that it is destroyed first
+  Read read_ = Read::kAll;
+  std::size_t blocks_left_ = 0;  // in the file, to be read
+  Block fetched_;                // a block of the file: that which is being written, or was read
+  std::span<const std::byte> unread_entries_, unread_buckets_;  // of the current block
+  Worker writer_;  // of fetched_; the last member, so that it is destroyed first
 };
 
 }  // namespace reeb::ooc

@@ -11,7 +11,14 @@
 
 namespace reeb::ooc {
 
-// Delivers the records by `died` descending, then by (lo, hi, born). rewind() starts over.
+// An arc record with its buckets, packed.
+struct SourceRecord {
+  ArcVersion arc;
+  std::uint32_t bucket_count = 0;
+  std::span<const std::byte> buckets{};
+};
+
+// Delivers the records by `died` descending, then by (lo, hi, born).
 class RecordSource {
  public:
   RecordSource() = default;
@@ -19,9 +26,12 @@ class RecordSource {
   RecordSource& operator=(const RecordSource&) = delete;
   virtual ~RecordSource() = default;
 
-  virtual void rewind() = 0;
-  // The next record and its packed buckets. The buckets are valid until the next call. False at the end.
-  virtual bool next(ArcVersion& record, std::span<const std::byte>& buckets) = 0;
+  // What is read of the records: all of it, or only the number of buckets instead of the buckets.
+  enum class Read { kAll, kCounts };
+  // Starts over.
+  virtual void rewind(Read what) = 0;
+  // The next record; its buckets are valid until the next call. False at the end.
+  virtual bool next(SourceRecord& record) = 0;
 };
 
 // Records in memory, in any order. Equal records keep their order.
@@ -31,14 +41,18 @@ class SortedRecords : public RecordSource {
   // `records` and the data that `buckets` refers to must outlive this. `buckets` are those of the records, or empty.
   SortedRecords(const std::vector<ArcVersion>& records, const ArcBucketsView& buckets);
 
-  void rewind() override { next_ = 0; }
-  bool next(ArcVersion& record, std::span<const std::byte>& buckets) override;
+  void rewind(Read what) override {
+    next_ = 0;
+    read_ = what;
+  }
+  bool next(SourceRecord& record) override;
 
  private:
   const std::vector<ArcVersion>& records_;
   const ArcBucketsView buckets_;
   std::vector<std::uint32_t> order_;
   std::size_t next_ = 0;
+  Read read_ = Read::kAll;
   std::vector<std::byte> packed_;
 };
 

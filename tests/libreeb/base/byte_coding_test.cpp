@@ -5,6 +5,7 @@
 
 #include <array>
 #include <limits>
+#include <random>
 #include <span>
 #include <vector>
 
@@ -108,6 +109,26 @@ TEST(ByteCoding, ReadsVarintsUpTo64Bits) {
     ByteReader in(bytes);
     EXPECT_EQ(in.varint(), value);
     EXPECT_TRUE(in.done());
+  }
+}
+
+TEST(ByteCoding, ManyVarintsAndDeltasAreThoseOfEachNumber) {
+  std::mt19937_64 random(1);
+  for (std::size_t count : {0u, 1u, 63u, 64u, 65u, 1000u}) {
+    std::vector<std::uint64_t> numbers(count);
+    for (std::uint64_t& number : numbers) number = random() >> random() % 64;
+    const auto number = [&](std::size_t i) { return numbers[i]; };
+    Bytes varints, deltas;
+    ByteWriter(varints).varints(count, number);
+    ByteWriter(deltas).deltas(count, number);
+    ByteReader in_varints(varints), in_deltas(deltas);
+    std::uint64_t before = 0;
+    for (const std::uint64_t expected : numbers) {
+      ASSERT_EQ(in_varints.varint(), expected);
+      ASSERT_EQ(before = in_deltas.delta(before), expected);
+    }
+    EXPECT_TRUE(in_varints.done());
+    EXPECT_TRUE(in_deltas.done());
   }
 }
 

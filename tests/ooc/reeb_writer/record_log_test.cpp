@@ -27,22 +27,26 @@ std::vector<Logged> random_records(std::size_t count, std::size_t most_bytes, st
     // A third have none; a few are as large as several small blocks.
     const std::size_t bytes = i % 3 == 0 ? 0 : random() % (i % 50 == 1 ? most_bytes : 40);
     for (std::size_t k = 0; k < bytes; ++k) record.buckets.push_back(static_cast<std::byte>(random()));
+    if (bytes != 0) record.buckets[0] = static_cast<std::byte>(random() % 128);  // the number of buckets
     records.push_back(std::move(record));
   }
   return records;
 }
 
-void expect_backwards(RecordLog& log, const std::vector<Logged>& records) {
-  ArcVersion arc;
-  std::span<const std::byte> buckets;
-  log.rewind();
+void expect_backwards(RecordLog& log, const std::vector<Logged>& records, RecordSource::Read what) {
+  const bool reads_all = what == RecordSource::Read::kAll;
+  SourceRecord record;
+  log.rewind(what);
   for (std::size_t i = records.size(); i-- > 0;) {
-    ASSERT_TRUE(log.next(arc, buckets)) << "record " << i;
-    ASSERT_EQ(arc, records[i].arc) << "record " << i;
-    ASSERT_TRUE(std::ranges::equal(buckets, records[i].buckets)) << "record " << i;
+    SCOPED_TRACE(testing::Message() << "record " << i);
+    const std::vector<std::byte>& buckets = records[i].buckets;
+    ASSERT_TRUE(log.next(record));
+    ASSERT_EQ(record.arc, records[i].arc);
+    ASSERT_EQ(record.bucket_count, buckets.empty() ? 0u : std::to_integer<std::uint32_t>(buckets[0]));
+    ASSERT_TRUE(std::ranges::equal(record.buckets, reads_all ? buckets : std::vector<std::byte>()));
   }
-  ASSERT_FALSE(log.next(arc, buckets));
-  ASSERT_FALSE(log.next(arc, buckets)) << "it stays at its end";
+  ASSERT_FALSE(log.next(record));
+  ASSERT_FALSE(log.next(record)) << "it stays at its end";
 }
 
 class Blocks : public testing::TestWithParam<std::size_t> {};
@@ -59,12 +63,13 @@ TEST_P(Blocks, RecordsComeBackFromTheLastToTheFirstAsOftenAsAsked) {
       const auto records = random_records(count, 4000, count + GetParam());
       for (const Logged& record : records) log.add(record.arc, record.buckets);
       EXPECT_EQ(log.record_count(), count);
-      expect_backwards(log, records);
-      ArcVersion arc;
-      std::span<const std::byte> buckets;
-      log.rewind();
-      for (std::size_t i = 0; i < count / 2; ++i) ASSERT_TRUE(log.next(arc, buckets));
-      expect_backwards(log, records);
+      for (const auto what : {RecordSource::Read::kCounts, RecordSource::Read::kAll}) {
+        expect_backwards(log, records, what);
+        SourceRecord record;
+        log.rewind(what);
+        for (std::size_t i = 0; i < count / 2; ++i) ASSERT_TRUE(log.next(record));
+        expect_backwards(log, records, what);
+      }
     }
   }
 }
@@ -79,7 +84,7 @@ TEST(RecordLog, NoFileIsMadeWhileABlockIsEnough) {
   const auto records = random_records(1000, 100, 1);
   for (const Logged& record : records) log.add(record.arc, record.buckets);
   EXPECT_EQ(log.spilled_bytes(), 0u);
-  expect_backwards(log, records);
+  expect_backwards(log, records, RecordSource::Read::kAll);
 }
 
 TEST(RecordLog, AFullDiskIsReported) {
@@ -87,7 +92,7 @@ TEST(RecordLog, AFullDiskIsReported) {
     expect_failing_writes_are_reported([background](const io::TempDir& temp, MemoryBudget& budget) {
       RecordLog log(temp, budget, 500, background);
       for (const Logged& record : random_records(1000, 100, 2)) log.add(record.arc, record.buckets);
-      log.rewind();
+      log.rewind(RecordSource::Read::kAll);
       EXPECT_GT(log.spilled_bytes(), 0u);
     });
 }
