@@ -21,6 +21,8 @@ namespace reeb {
 // become small numbers: 0, -1, 1, -2, ... become 0, 1, 2, 3, ...
 constexpr std::uint64_t zigzag(std::uint64_t difference) noexcept { return difference << 1 ^ (0 - (difference >> 63)); }
 constexpr std::uint64_t unzigzag(std::uint64_t code) noexcept { return code >> 1 ^ (0 - (code & 1)); }
+// The difference a - b modulo 2^64, zigzagged: exact for every pair of numbers.
+constexpr std::uint64_t delta_code(std::uint64_t a, std::uint64_t b) noexcept { return zigzag(a - b); }
 
 // LEB128: seven bits per byte, lowest first; the high bit is set on all but the last byte.
 inline constexpr std::size_t kMaxVarintBytes = 10;
@@ -42,9 +44,10 @@ class ByteWriter {
   void f64(double value) { u64(std::bit_cast<std::uint64_t>(value)); }
 
   void varint(std::uint64_t value) {
-    varints(1, [value](std::size_t) { return value; });
+    std::array<std::byte, kMaxVarintBytes> bytes;
+    out_.insert(out_.end(), bytes.data(), put_varint(bytes.data(), value));
   }
-  // The varints of value(0), value(1), ... value(count - 1).
+  // The varints of value(0), value(1), ... value(count - 1), which are called in this order.
   template <class Value>
   void varints(std::size_t count, Value value) {
     constexpr std::size_t kAtOnce = 64;
@@ -55,16 +58,15 @@ class ByteWriter {
       out_.insert(out_.end(), some.data(), to);
     }
   }
-  // The same for the delta of each number from the one before, and of the first from 0.
+  // The delta of number(0) from 0, and of each later number from the one before.
   template <class Number>
   void deltas(std::size_t count, const Number& number) {
     varints(count, [&number, before = std::uint64_t{0}](std::size_t i) mutable {
       const std::uint64_t now = number(i);
-      return zigzag(now - std::exchange(before, now));
+      return delta_code(now, std::exchange(before, now));
     });
   }
-  // The difference a - b modulo 2^64, zigzagged: exact for every pair of numbers.
-  void delta(std::uint64_t a, std::uint64_t b) { varint(zigzag(a - b)); }
+  void delta(std::uint64_t a, std::uint64_t b) { varint(delta_code(a, b)); }
 
   void text(std::string_view value) {
     for (const char c : value) u8(static_cast<std::uint8_t>(c));

@@ -70,7 +70,7 @@ void encode_arcs(std::span<const FileArc> arcs, ByteWriter& out) {
   });
   out.varints(arcs.size(), [&](std::size_t i) { return arcs[i].born; });
   out.deltas(arcs.size(), [&](std::size_t i) { return arcs[i].lo; });
-  out.varints(arcs.size(), [&](std::size_t i) { return zigzag(arcs[i].hi - arcs[i].lo); });
+  out.varints(arcs.size(), [&](std::size_t i) { return delta_code(arcs[i].hi, arcs[i].lo); });
 }
 
 const char* decode_arcs(ByteReader& in, std::size_t count, std::vector<FileArc>& arcs) {
@@ -263,7 +263,7 @@ void encode_pairs_frame(std::span<const FilePair> pairs, std::vector<std::byte>&
   for (const FilePair& pair : pairs)
     out.u8(static_cast<std::uint8_t>(static_cast<unsigned>(pair.type) | (pair.kept ? 4u : 0u)));
   out.deltas(pairs.size(), [&](std::size_t i) { return pairs[i].lo; });
-  out.varints(pairs.size(), [&](std::size_t i) { return zigzag(pairs[i].hi - pairs[i].lo); });
+  out.varints(pairs.size(), [&](std::size_t i) { return delta_code(pairs[i].hi, pairs[i].lo); });
 }
 
 const char* decode_pairs_frame(std::span<const std::byte> payload, const FrameHeader& header,

@@ -52,15 +52,14 @@ std::int64_t get_bucket(ByteReader& in, std::int64_t last, Bucket& bucket) {
 }  // namespace
 
 BucketPacker::BucketPacker(std::uint64_t count, std::vector<std::byte>& packed) : packed_(packed) {
-  if (count == 0) return;
-  std::array<std::byte, kMaxVarintBytes> bytes;
-  packed_.insert(packed_.end(), bytes.data(), put_varint(bytes.data(), count));
+  if (count != 0) ByteWriter(packed_).varint(count);
 }
 
 void BucketPacker::add(const Bucket& bucket) {
   std::array<std::byte, kMaxBucketBytes> bytes;
   const bool single = is_single(bucket.mean);
-  std::byte* to = put_varint(bytes.data(), zigzag(static_cast<std::uint64_t>(bucket.index - last_)));
+  std::byte* to =
+      put_varint(bytes.data(), delta_code(static_cast<std::uint64_t>(bucket.index), static_cast<std::uint64_t>(last_)));
   to = put_varint(to, bucket.count << 1 | (single ? 1 : 0));
   const auto& [x, y, z] = bucket.mean;
   to = single ? put_raw(to, Single{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)})

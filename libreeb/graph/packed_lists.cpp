@@ -6,12 +6,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "libreeb/base/byte_coding.h"
 #include "libreeb/graph/packed_buckets.h"
 
 namespace reeb {
 namespace {
 
-// A list comes after its arc, in four bytes, and its size, seven bits per byte.
+// A list comes after its arc, in four bytes, and the varint of its size.
 constexpr std::size_t kArcBytes = 4, kMaxSizeBytes = 5;
 
 }  // namespace
@@ -70,10 +71,7 @@ std::uint64_t PackedLists::store(std::uint32_t arc, std::span<const std::byte> l
   const std::uint32_t offset = chunk.used;
   std::byte* to = chunk.bytes.get() + offset;
   std::memcpy(to, &arc, kArcBytes);
-  to += kArcBytes;
-  std::size_t size = list.size();
-  for (; size >= 0x80; size >>= 7) *to++ = static_cast<std::byte>(size | 0x80);
-  *to++ = static_cast<std::byte>(size);
+  to = put_varint(to + kArcBytes, list.size());
   std::memcpy(to, list.data(), list.size());
   chunk.used = static_cast<std::uint32_t>(to + list.size() - chunk.bytes.get());
   const std::uint32_t stored = chunk.used - offset;

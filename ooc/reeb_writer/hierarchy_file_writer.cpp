@@ -26,7 +26,7 @@ class HierarchyFileWriter {
 
   void run(const Poll& poll) {
     std::vector<std::uint64_t> frame_ends;
-    records_.rewind(RecordSource::Read::kAll);
+    records_.rewind(RecordSource::Buckets::kRead);
     std::size_t next = 0;
     read_ahead<PlannedFrame>(
         background_, [&](PlannedFrame& frame) { return next < layout_.cuts.size() && (make(next++, frame), true); },
@@ -95,7 +95,7 @@ class HierarchyFileWriter {
   // The next records with their buckets.
   void read_records(std::uint64_t count, GraphFrame& frame) {
     arcs_.clear();
-    for (SourceRecord record; arcs_.size() < count && records_.next(record);) {
+    for (PackedRecord record; arcs_.size() < count && records_.next(record);) {
       arcs_.push_back(record.arc);
       for (const NodeId end : {record.arc.lo, record.arc.hi}) prefetch(&file_index_[end.value()]);
       if (header_.flags.has_embedding) frame.add_buckets(record.buckets);

@@ -28,10 +28,9 @@ class VersionCounter {
  public:
   VersionCounter(std::size_t node_count, std::size_t versions) : present_from_(node_count, kNever), change_(versions) {}
 
-  // The nodes of records can be anywhere in memory.
   void add(std::span<const CountedArc> arcs) {
     constexpr std::size_t kAhead = 8;
-    for (const auto& [arc, buckets] : arcs) prefetch(arc);
+    for (const auto& [arc, buckets] : arcs) prefetch(arc);  // its nodes can be anywhere in memory
     for (std::size_t i = 0; i < arcs.size(); ++i) {
       if (i + kAhead < arcs.size()) prefetch_next(arcs[i + kAhead].arc);
       const auto& [arc, buckets] = arcs[i];
@@ -192,7 +191,7 @@ void check_steps(std::span<const double> persistence) {
 
 void check_record(const ArcVersion& arc, std::uint64_t i, std::size_t nodes, std::size_t steps) {
   if (!(arc.lo < arc.hi) || arc.hi.value() >= nodes) fail("arc", i, "does not go up to a node");
-  if (arc.born >= arc.died || (arc.died > steps && arc.died != kNeverDies))
+  if (arc.born >= arc.died || arc.born > steps || (arc.died > steps && arc.died != kNeverDies))
     fail("arc", i, "does not live between two versions");
 }
 
@@ -203,21 +202,21 @@ void check_pairs(HierarchySource& hierarchy) {
     if (pair.hi < pair.lo || pair.hi.value() >= hierarchy.node_count()) fail("pair", i, "does not go up to a node");
 }
 
-// Reads records, checks them, and finds their frames.
-class RecordReader {
+// Reads and checks records, finds their frames, and tells which frame introduces each node.
+class FramePlanner {
  public:
-  RecordReader(HierarchySource& hierarchy, RecordSource& records, std::vector<FrameCut>& cuts)
+  FramePlanner(HierarchySource& hierarchy, RecordSource& records, std::vector<FrameCut>& cuts)
       : hierarchy_(hierarchy),
         records_(records),
         steps_(static_cast<std::uint32_t>(hierarchy.persistence().size())),
-        named_(hierarchy.node_count()),
+        introduced_(hierarchy.node_count()),
         cutter_(steps_, cuts) {
-    records_.rewind(RecordSource::Read::kCounts);
+    records_.rewind(RecordSource::Buckets::kOnlyCounted);
   }
 
   // To be called for all isolated nodes first.
   void add_isolated(NodeId node) {
-    named_[node.value()] = true;
+    introduced_[node.value()] = true;
     hierarchy_.introduce(node, cutter_.add_isolated());
   }
 
@@ -225,9 +224,9 @@ class RecordReader {
   bool read(std::vector<CountedArc>& some) {
     constexpr std::size_t kRecordsAtOnce = 512;
     some.clear();
-    for (SourceRecord record; some.size() < kRecordsAtOnce && records_.next(record); ++count_) {
+    for (PackedRecord record; some.size() < kRecordsAtOnce && records_.next(record); ++count_) {
       const ArcVersion& arc = record.arc;
-      check_record(arc, count_, named_.size(), steps_);
+      check_record(arc, count_, introduced_.size(), steps_);
       if (arc.died > std::exchange(last_died_, arc.died)) fail("arc", count_, "lives longer than the one before");
       some.push_back({arc, record.bucket_count});
       place(record);
@@ -237,27 +236,27 @@ class RecordReader {
 
   // REQUIRES: read() has returned false. Returns the number of records.
   std::uint64_t finish() {
-    for (std::size_t node = 0; node < named_.size(); ++node)
-      if (!named_[node]) fail("node", node, "is neither isolated nor named by an arc");
+    for (std::size_t node = 0; node < introduced_.size(); ++node)
+      if (!introduced_[node]) fail("node", node, "is neither isolated nor named by an arc");
     cutter_.finish();
     return count_;
   }
 
  private:
-  void place(const SourceRecord& record) {
-    const auto [lo, hi] = std::pair(record.arc.lo, record.arc.hi);
-    const bool is_new_lo = !named_[lo.value()], is_new_hi = !named_[hi.value()];
+  void place(const PackedRecord& record) {
+    const NodeId lo = record.arc.lo, hi = record.arc.hi;
+    const bool is_new_lo = !introduced_[lo.value()], is_new_hi = !introduced_[hi.value()];
     const std::uint32_t new_nodes = (is_new_lo ? 1u : 0u) + (is_new_hi ? 1u : 0u);
     const std::uint32_t frame = cutter_.add_record(record.arc.died, new_nodes, record.bucket_count);
     if (is_new_lo) hierarchy_.introduce(lo, frame);
     if (is_new_hi) hierarchy_.introduce(hi, frame);
-    named_[lo.value()] = named_[hi.value()] = true;
+    introduced_[lo.value()] = introduced_[hi.value()] = true;
   }
 
   HierarchySource& hierarchy_;
   RecordSource& records_;
   const std::uint32_t steps_;
-  std::vector<bool> named_;  // by node: a frame introduces it
+  std::vector<bool> introduced_;  // by node
   FrameCutter cutter_;
   std::uint32_t last_died_ = kNeverDies;
   std::uint64_t count_ = 0;
@@ -272,17 +271,17 @@ HierarchyLayout lay_out(HierarchySource& hierarchy, RecordSource& records, bool 
   HierarchyLayout layout;
   {
     VersionCounter counter(node_count, steps + 1);
-    RecordReader reader(hierarchy, records, layout.cuts);
+    FramePlanner planner(hierarchy, records, layout.cuts);
     const std::span<const NodeId> isolated = hierarchy.isolated();
     for (std::size_t i = 0; i < isolated.size(); ++i) {
       if (isolated[i].value() >= node_count || (i > 0 && !(isolated[i - 1] < isolated[i])))
         fail("isolated node", i, "is not above the one before it");
       counter.add_isolated(isolated[i]);
-      reader.add_isolated(isolated[i]);
+      planner.add_isolated(isolated[i]);
     }
     read_ahead<std::vector<CountedArc>>(
-        background, [&](auto& some) { return reader.read(some); }, [&](const auto& some) { counter.add(some); });
-    layout.records = reader.finish();
+        background, [&](auto& some) { return planner.read(some); }, [&](const auto& some) { counter.add(some); });
+    layout.records = planner.finish();
     layout.versions = counter.take(hierarchy.persistence());
   }
   layout.levels = level_table(layout, static_cast<std::uint32_t>(steps));

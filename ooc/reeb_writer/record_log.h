@@ -17,11 +17,11 @@
 
 namespace reeb::ooc {
 
-// A block holds the packed buckets of its records, one after the other, and apart from them the rest of each record, so
-// that the numbers of buckets are read without the buckets: 24 bytes per record. Each part has a checksum. No file is
-// made while one block is enough.
+// A block has two parts, each with a checksum: entries of 24 bytes, one per record, and the packed buckets of all its
+// records. So entries can be read without buckets. No file is made while one block is enough.
 //
-// MEMORY: two blocks, of which either part can have all the room, and 16 bytes per block of the file.
+// MEMORY: memory_bytes(): two blocks, each with two parts that can be as large as a block. A record that is larger is
+//         not counted. 8 bytes per block of the file.
 // THROWS: Error{kResource} if the disk is full, or returns other bytes than were written, or the budget lacks
 //         memory_bytes(). An error in the background is thrown by a later call.
 class RecordLog : public RecordSink, public RecordSource {
@@ -44,8 +44,8 @@ class RecordLog : public RecordSink, public RecordSource {
   void add(const ArcVersion& record, std::span<const std::byte> buckets) override;
 
   // REQUIRES, for everything below: nothing more is added.
-  void rewind(Read what) override;
-  bool next(SourceRecord& record) override;
+  void rewind(Buckets buckets) override;
+  bool next(PackedRecord& record) override;
 
   std::uint64_t record_count() const { return count_; }
   // REQUIRES: rewind() was called.
@@ -55,10 +55,14 @@ class RecordLog : public RecordSink, public RecordSource {
   struct Block {
     std::vector<std::byte> entries, buckets;
     std::size_t bytes() const { return entries.size() + buckets.size(); }
-  };
-  // Offsets in the file.
-  struct BlockPlace {
-    std::uint64_t entries, buckets;
+    void reserve(std::size_t bytes) {
+      entries.reserve(bytes);
+      buckets.reserve(bytes);
+    }
+    void clear() {
+      entries.clear();
+      buckets.clear();
+    }
   };
 
   void seal_block();
@@ -69,11 +73,11 @@ class RecordLog : public RecordSink, public RecordSource {
   const bool background_;
   Reservation charge_;
   std::optional<SortedRunFile> file_;
-  std::vector<BlockPlace> places_;  // of the blocks in the file
-  Block open_;                      // the block after them
+  std::vector<std::uint64_t> offsets_;  // of the blocks in the file
+  Block open_;                          // the block after them
   std::uint64_t count_ = 0;
 
-  Read read_ = Read::kAll;
+  bool reads_buckets_ = false;
   std::size_t blocks_left_ = 0;  // in the file, to be read
   Block fetched_;                // a block of the file: that which is being written, or was read
   std::span<const std::byte> unread_entries_, unread_buckets_;  // of the current block

@@ -21,12 +21,12 @@ SortedRecords::SortedRecords(const std::vector<ArcVersion>& records, const ArcBu
   std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
 }
 
-bool SortedRecords::next(SourceRecord& record) {
+bool SortedRecords::next(PackedRecord& record) {
   if (next_ == order_.size()) return false;
   const std::uint32_t i = order_[next_++];
   const std::span<const Bucket> buckets = buckets_.of(i);
   packed_.clear();
-  if (read_ == Read::kAll) pack_buckets(buckets, packed_);
+  if (reads_buckets_) pack_buckets(buckets, packed_);
   record = {records_[i], static_cast<std::uint32_t>(buckets.size()), packed_};
   return true;
 }

@@ -11,8 +11,8 @@
 
 namespace reeb::ooc {
 
-// An arc record with its buckets, packed.
-struct SourceRecord {
+// An arc record with the number of its buckets, and these, packed; none if they are not read.
+struct PackedRecord {
   ArcVersion arc;
   std::uint32_t bucket_count = 0;
   std::span<const std::byte> buckets{};
@@ -26,12 +26,11 @@ class RecordSource {
   RecordSource& operator=(const RecordSource&) = delete;
   virtual ~RecordSource() = default;
 
-  // What is read of the records: all of it, or only the number of buckets instead of the buckets.
-  enum class Read { kAll, kCounts };
-  // Starts over.
-  virtual void rewind(Read what) = 0;
+  enum class Buckets { kRead, kOnlyCounted };
+  // Starts over, with buckets or without.
+  virtual void rewind(Buckets buckets) = 0;
   // The next record; its buckets are valid until the next call. False at the end.
-  virtual bool next(SourceRecord& record) = 0;
+  virtual bool next(PackedRecord& record) = 0;
 };
 
 // Records in memory, in any order. Equal records keep their order.
@@ -41,18 +40,18 @@ class SortedRecords : public RecordSource {
   // `records` and the data that `buckets` refers to must outlive this. `buckets` are those of the records, or empty.
   SortedRecords(const std::vector<ArcVersion>& records, const ArcBucketsView& buckets);
 
-  void rewind(Read what) override {
+  void rewind(Buckets buckets) override {
     next_ = 0;
-    read_ = what;
+    reads_buckets_ = buckets == Buckets::kRead;
   }
-  bool next(SourceRecord& record) override;
+  bool next(PackedRecord& record) override;
 
  private:
   const std::vector<ArcVersion>& records_;
   const ArcBucketsView buckets_;
   std::vector<std::uint32_t> order_;
   std::size_t next_ = 0;
-  Read read_ = Read::kAll;
+  bool reads_buckets_ = false;
   std::vector<std::byte> packed_;
 };
 

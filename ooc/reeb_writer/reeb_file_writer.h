@@ -44,13 +44,14 @@ struct HierarchyContent {
   OutputOptions output = {};
 };
 
-// Reads the records twice. `poll` is called before every frame; it may throw to stop writing.
+// Reads the records twice, first without their buckets. `poll` is called before every frame; it may throw to stop
+// writing.
 // MEMORY: hierarchy_file_bytes().
 // THROWS: Error{kResource}; then no file is left. std::logic_error if graph, hierarchy and records contradict each
 //         other.
 void write_hierarchy_file(const std::string& path, const FileMeta& meta, const HierarchyContent& content,
                           const Poll& poll = {});
-// The most memory that it holds: 32 bytes per version, 4 per node, and frames.
+// The most memory that it holds: 32 bytes per version, 4 1/8 per node, and frames.
 std::uint64_t hierarchy_file_bytes(std::uint64_t nodes, std::uint64_t versions);
 
 // The same from memory: hierarchy.arcs in any order, with their buckets or none. It needs 4 more bytes per record.

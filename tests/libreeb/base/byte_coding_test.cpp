@@ -1,11 +1,10 @@
-// ByteReader on what ByteWriter wrote, on every prefix of it, and on numbers of too many bytes.
+// ByteReader on what ByteWriter wrote, also in columns, on every prefix of it, and on numbers of too many bytes.
 #include "libreeb/base/byte_coding.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <limits>
-#include <random>
 #include <span>
 #include <vector>
 
@@ -112,23 +111,32 @@ TEST(ByteCoding, ReadsVarintsUpTo64Bits) {
   }
 }
 
-TEST(ByteCoding, ManyVarintsAndDeltasAreThoseOfEachNumber) {
-  std::mt19937_64 random(1);
-  for (std::size_t count : {0u, 1u, 63u, 64u, 65u, 1000u}) {
-    std::vector<std::uint64_t> numbers(count);
-    for (std::uint64_t& number : numbers) number = random() >> random() % 64;
-    const auto number = [&](std::size_t i) { return numbers[i]; };
-    Bytes varints, deltas;
-    ByteWriter(varints).varints(count, number);
-    ByteWriter(deltas).deltas(count, number);
-    ByteReader in_varints(varints), in_deltas(deltas);
-    std::uint64_t before = 0;
-    for (const std::uint64_t expected : numbers) {
-      ASSERT_EQ(in_varints.varint(), expected);
-      ASSERT_EQ(before = in_deltas.delta(before), expected);
-    }
-    EXPECT_TRUE(in_varints.done());
-    EXPECT_TRUE(in_deltas.done());
+void expect_columns(const std::vector<std::uint64_t>& numbers) {
+  const auto number = [&](std::size_t i) { return numbers[i]; };
+  Bytes varints = bytes_of({1, 2}), deltas = varints;
+  ByteWriter(varints).varints(numbers.size(), number);
+  ByteWriter(deltas).deltas(numbers.size(), number);
+  ByteReader in_varints(varints), in_deltas(deltas);
+  for (ByteReader* in : {&in_varints, &in_deltas}) ASSERT_EQ(in->bytes(2).size(), 2u);
+  std::uint64_t before = 0;
+  for (const std::uint64_t expected : numbers) {
+    ASSERT_EQ(in_varints.varint(), expected);
+    ASSERT_EQ(before = in_deltas.delta(before), expected);
+  }
+  EXPECT_TRUE(in_varints.done());
+  EXPECT_TRUE(in_deltas.done());
+}
+
+TEST(ByteCoding, ColumnsOfVarintsAndDeltasAreThoseOfEachNumber) {
+  test::Random random(test::base_seed());
+  for (const std::size_t count : {0u, 1u, 63u, 64u, 65u, 1000u}) {
+    SCOPED_TRACE(testing::Message() << count << " numbers");
+    std::vector<std::uint64_t> numbers(count, kMaxNumber);
+    expect_columns(numbers);
+    for (std::size_t i = 0; i < count; i += 2) numbers[i] = 0;
+    expect_columns(numbers);
+    for (std::uint64_t& number : numbers) number = random.next() >> random.below(64);
+    expect_columns(numbers);
   }
 }
 
