@@ -11,7 +11,7 @@
 
 namespace reeb::ooc {
 
-// An arc record with the number of its buckets, and these, packed; none if they are not read.
+// An arc record, the number of its buckets, and the packed buckets if they are read.
 struct PackedRecord {
   ArcVersion arc;
   std::uint32_t bucket_count = 0;

@@ -107,7 +107,7 @@ class StoredHierarchyTest : public testing::Test {
     ASSERT_TRUE(same) << bytes << " bytes of memory";
   }
 
-  // Every third file is written in one thread, the others in two. So both are compared, and with each other.
+  // Every third file is written in one thread, the others in two: so some in memory and some on disk in either way.
   std::string written(const Given& given, HierarchySource& source, RecordLog& records) {
     const bool background = files_++ % 3 != 0;
     const std::string path = folder_.path() + "/out.reeb";
