@@ -44,6 +44,7 @@ class GrowingArray {
 
   T& operator[](std::size_t i) { return data_.get()[i]; }
   const T& operator[](std::size_t i) const { return data_.get()[i]; }
+  T* data() { return data_.get(); }
   std::size_t size() const { return size_; }
   std::span<const T> all() const { return {data_.get(), size_}; }
   std::size_t memory_bytes() const { return most_ * sizeof(T); }

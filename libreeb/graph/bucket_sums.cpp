@@ -52,6 +52,11 @@ void BucketLists::start(int exponent) {
   first_current_ = 0;
 }
 
+BucketLists::Index BucketLists::add_current_bucket(List& list) {
+  link_last(list, new_bucket({.index = current_index_}));
+  return list.last;
+}
+
 BucketLists::Index BucketLists::new_bucket(const BucketSum& bucket) {
   Index b = 0;
   if (free_count_ != 0) {
@@ -67,6 +72,11 @@ BucketLists::Index BucketLists::new_bucket(const BucketSum& bucket) {
   sums_[b] = bucket;
   links_[b] = {bucket.index, b};
   return b;
+}
+
+void BucketLists::add_to_buckets(std::span<const VertexInBucket> vertices) {
+  BucketSum* const sums = sums_.data();
+  for (const auto& [position, bucket] : vertices) sums[bucket].add(*position);
 }
 
 void BucketLists::link_last(List& list, Index b) {

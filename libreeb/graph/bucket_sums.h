@@ -4,7 +4,9 @@
 // 2^-44, and are added in 128 bits, which is enough for 2^32 of them.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -21,8 +23,8 @@ namespace reeb {
 
 __extension__ typedef __int128 Int128;
 
-// A coordinate below this, in units of 2^-44, fits in 64 bits.
-inline constexpr double kSmallCoordinate = 0x1p18;
+// A position with a squared length below this has coordinates that fit in 64 bits, in units of 2^-44.
+inline constexpr double kSmallSquare = 0x1p36;
 
 // A coordinate in units of 2^-44, rounded towards zero. A NaN counts as the least coordinate.
 inline Int128 fixed_point(double x) {
@@ -57,10 +59,12 @@ struct BucketSum {
   // REQUIRES: there are fewer than 2^32 - 1 vertices. A sweep adds those of a chunk only; elsewhere check_room() tells.
   void add(const Point& position) {
     ++count;
-    const auto& [x, y, z] = position;
-    if (std::abs(x) + std::abs(y) + std::abs(z) < kSmallCoordinate) [[likely]] {
-      for (std::size_t k = 0; k < 3; ++k) sum[k] += static_cast<std::int64_t>(position[k] * 0x1p44);
-      moment += x * x + y * y + z * z;
+    const double x = position[0], y = position[1], z = position[2], square = x * x + y * y + z * z;
+    if (square < kSmallSquare) [[likely]] {
+      sum[0] += static_cast<std::int64_t>(x * 0x1p44);
+      sum[1] += static_cast<std::int64_t>(y * 0x1p44);
+      sum[2] += static_cast<std::int64_t>(z * 0x1p44);
+      moment += square;
       raise_rim(near_rim_of(position));
     } else {
       add_large(position);
@@ -79,11 +83,16 @@ struct BucketSum {
     if (more > ~count) [[unlikely]]
       refuse_vertices();
   }
-  // Without branches: which vertex is next cannot be predicted.
+  // Mostly x decides, and which vertex is next cannot be predicted. So there are no other branches.
   void raise_rim(const RimPoint& other) {
-    const bool is_higher_rest = (other[1] > rim[1]) | ((other[1] == rim[1]) & (other[2] > rim[2]));
-    const bool is_higher = (other[0] > rim[0]) | ((other[0] == rim[0]) & is_higher_rest);
-    for (std::size_t k = 0; k < 3; ++k) rim[k] = is_higher ? other[k] : rim[k];
+    bool is_higher = other[0] > rim[0];
+    if (other[0] == rim[0]) [[unlikely]]
+      is_higher = other[1] > rim[1] || (other[1] == rim[1] && other[2] > rim[2]);
+    const std::uint32_t replaced = is_higher ? ~std::uint32_t{0} : 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto bits = std::bit_cast<std::uint32_t>(rim[k]), other_bits = std::bit_cast<std::uint32_t>(other[k]);
+      rim[k] = std::bit_cast<float>(bits ^ ((bits ^ other_bits) & replaced));
+    }
   }
   void add_large(const Point& position);
   [[noreturn]] static void refuse_vertices();
@@ -138,10 +147,13 @@ class BucketLists {
   }
   // The bucket of that index in the list. Vertices can be added to it at any later time.
   Index current_bucket(List& list) {
-    if (list.last + 1 <= first_current_) link_last(list, new_bucket({.index = current_index_}));  // none + 1 == 0
-    return list.last;
+    return list.last + 1 > first_current_ ? list.last : add_current_bucket(list);  // kNone + 1 == 0
   }
-  void add_to_bucket(Index bucket, const Point& position) { sums_[bucket].add(position); }
+  struct VertexInBucket {
+    const Point* position;
+    Index bucket;
+  };
+  void add_to_buckets(std::span<const VertexInBucket> vertices);
 
   // Like all that add up buckets, these throw what BucketSum::check_room() does.
   //
@@ -215,6 +227,7 @@ class BucketLists {
     Index next;          // in its list
   };
 
+  Index add_current_bucket(List& list);
   Index new_bucket(const BucketSum& bucket);
   void free_bucket(Index b) { free_[free_count_++] = b; }
   void link_last(List& list, Index b);

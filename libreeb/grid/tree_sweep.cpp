@@ -9,15 +9,7 @@ void TreeSweep::run(const SweptChunk& swept, const ContourTree& tree, std::span<
   builder_.start(n, options);
   arc_of_.resize(n);
   passed_.clear();
-  // One bucket after the other if there is an embedding, else all vertices at once.
-  for (std::uint32_t v = 0, end = n; v < n; end = n) {
-    if (embeds_) {
-      const std::int64_t index = bucket_index(swept.value(VertexRank(v)), *options.bucket_exponent);
-      end = swept.end_of_bucket(v, index, *options.bucket_exponent);
-      builder_.start_bucket(index);
-    }
-    for (; v < end; ++v) visit(swept, tree, v, keep[v]);
-  }
+  for (std::uint32_t v = 0; v < n; ++v) visit(swept, tree, v, keep[v]);
   builder_.end_sweep(swept);
 }
 
@@ -30,7 +22,7 @@ void TreeSweep::visit(const SweptChunk& swept, const ContourTree& tree, std::uin
     const BoxFaces faces = swept.chunk.uses[local.value()];
     if (!embeds_ || (faces & kHighFaces) != 0) return;  // a later box has it
     if (faces == kUsedHereOnly)
-      builder_.add_regular(arc, local);
+      builder_.note_regular(arc, VertexRank(v));
     else
       passed_.emplace_back(local, arc);
     return;

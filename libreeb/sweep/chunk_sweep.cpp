@@ -219,7 +219,6 @@ struct ChunkSweep::Scratch {
   void find_uses();
   void visit(std::uint32_t v);
   bool pass_regular(std::uint32_t v);
-  void note_regular(std::uint32_t v, SweepArc arc);
   void collect_below(std::uint32_t v);
   void end_arcs_below(SweepNode node);
   void label_lows(std::uint32_t v, std::uint32_t label);
@@ -257,7 +256,7 @@ struct ChunkSweep::Scratch {
   const Chunk* chunk = nullptr;
   std::uint32_t current = 0;  // the last vertex for which pass_regular() was false
   const SweptChunk* swept = nullptr;
-  bool embeds = false, follows = false, notes_regular = false, manifold = false;
+  bool notes_regular = false, manifold = false;
   VertexRanks ranks;
   ChunkStars stars;
   FragmentBuilder builder;
@@ -299,15 +298,7 @@ void ChunkSweep::Scratch::run(const Chunk& chunk_in, std::span<const double> val
   const SweptChunk swept_chunk{*chunk, values, ranks.order(), &stars};
   swept = &swept_chunk;
   const auto n = static_cast<std::uint32_t>(chunk->vertex_count());
-  // One bucket after the other if there is an embedding, else all vertices at once.
-  for (std::uint32_t v = 0, end = n; v < n; end = n) {
-    if (options.bucket_exponent) {
-      const std::int64_t index = bucket_index(swept->value(VertexRank(v)), *options.bucket_exponent);
-      end = swept->end_of_bucket(v, index, *options.bucket_exponent);
-      builder.start_bucket(index);
-    }
-    while (v < end) visit(v++);
-  }
+  for (std::uint32_t v = 0; v < n; ++v) visit(v);
   builder.end_sweep(swept_chunk);
   builder.finish(swept_chunk, shared_edges, fragment);
 }
@@ -316,9 +307,7 @@ void ChunkSweep::Scratch::reset(const SweepOptions& options) {
   const std::size_t n = chunk->vertex_count();
   find_uses();
   crossings.reset(stars.triangle_count());
-  embeds = options.bucket_exponent.has_value();
-  follows = options.follows_vertices;
-  notes_regular = embeds || follows;
+  notes_regular = options.bucket_exponent || options.follows_vertices;
   manifold = options.manifold;
   labels.clear();
   up.reset(n);
@@ -359,7 +348,7 @@ void ChunkSweep::Scratch::visit(std::uint32_t v) {
   const bool shared = (uses[v] & ~unsigned{kCountedElsewhere}) != 0;
   if (joined && below.size() == 1 && !shared) {  // a regular vertex
     label_lows(v, below[0]);
-    if (notes_regular && uses[v] == kUsedHereOnly) note_regular(v, labels.arc(below[0]));
+    if (notes_regular && uses[v] == kUsedHereOnly) builder.note_regular(labels.arc(below[0]), VertexRank(v));
     return;
   }
   const SweepNode node = builder.add_node(VertexRank(v));
@@ -398,14 +387,8 @@ bool ChunkSweep::Scratch::pass_regular(std::uint32_t v) {
   crossings.set_unlinked(2 * middles.back() + 1);
   const std::uint32_t low_first = stars.low_first(v), last_low = stars.low_last(v) - 1;
   for (std::uint32_t i = 0; i < kMostLows; ++i) crossings.start(std::min(low_first + i, last_low), root);
-  if (notes_regular) note_regular(v, labels.arc(root));
+  if (notes_regular) builder.note_regular(labels.arc(root), VertexRank(v));
   return true;
-}
-
-void ChunkSweep::Scratch::note_regular(std::uint32_t v, SweepArc arc) {
-  const LocalVertex local = swept->local(VertexRank(v));
-  if (embeds) builder.add_regular(arc, local);
-  if (follows) builder.follow(arc, local);
 }
 
 // The distinct arcs of the triangles in which v is middle or highest all end or meet in v.

@@ -1,6 +1,7 @@
 #include "libreeb/sweep/fragment_builder.h"
 
 #include <algorithm>
+#include <array>
 
 #include "libreeb/base/prefetch.h"
 #include "libreeb/sweep/chunk.h"
@@ -10,12 +11,9 @@ namespace reeb {
 void FragmentBuilder::start(std::size_t vertices, const SweepOptions& options) {
   options_ = options;
   graph_.clear();
-  if (options.bucket_exponent) {
-    graph_.buckets.start(*options.bucket_exponent);
-    clear_with_room(regular_, vertices);
-  }
+  if (options.bucket_exponent) graph_.buckets.start(*options.bucket_exponent);
+  if (options.bucket_exponent || options.follows_vertices) fill_with_room(arc_of_regular_, vertices, SweepArc::none());
   node_of_.resize(vertices);
-  followed_.clear();
 }
 
 SweepNode FragmentBuilder::add_node(VertexRank v) {
@@ -30,7 +28,7 @@ SweepArc FragmentBuilder::add_arc(SweepNode lower_node) {
 
 void FragmentBuilder::end_sweep(const SweptChunk& swept) {
   for (SweepGraph::Node& node : graph_.nodes) node.key = swept.key(node.vertex);
-  if (options_.bucket_exponent) add_positions(swept.chunk);
+  if (options_.bucket_exponent) add_positions(swept);
 }
 
 void FragmentBuilder::start_fragment(const SweptChunk& swept, Fragment& fragment) {
@@ -60,8 +58,10 @@ void FragmentBuilder::add_followed(const SweptChunk& swept, Fragment& fragment) 
   std::uint32_t settled = 0;
   for (const SweepGraph::Arc& arc : graph_.arcs)
     settled_number_.push_back(arc.open == FragmentArc::none() ? settled++ : 0);
-  for (const auto& [arc, v] : followed_) {
-    const SweepKey vertex{swept.values[v.value()], swept.chunk.ids[v.value()]};
+  for (VertexRank v; v < arc_of_regular_.end_id(); ++v) {
+    const SweepArc arc = arc_of_regular_[v];
+    if (arc == SweepArc::none()) continue;
+    const SweepKey vertex = swept.key(v);
     if (const FragmentArc open = graph_.arcs[arc].open; open != FragmentArc::none())
       fragment.on_open_arcs.push_back({vertex, open.value()});
     else
@@ -110,18 +110,34 @@ void FragmentBuilder::mark_arcs_between_used(const SweptChunk& swept) {
   }
 }
 
-// In the order of the sweep, since the buckets of one index stay in the cache meanwhile. The positions can be anywhere
-// in the chunk, so they are fetched ahead.
-void FragmentBuilder::add_positions(const Chunk& chunk) {
-  constexpr std::size_t kAhead = 16;  // vertices
-  for (std::size_t i = 0; i < regular_.size(); ++i) {
-    if (i + kAhead < regular_.size()) {
-      const auto& [vertex, bucket] = regular_[i + kAhead];
-      if (!chunk.positions.empty()) prefetch(&chunk.positions[vertex.value()]);
+// One bucket after the other, since those of one index stay in the cache meanwhile. The positions can be anywhere in
+// the chunk. So they and the buckets are prefetched for a block of vertices before the block is added up.
+void FragmentBuilder::add_positions(const SweptChunk& swept) {
+  std::array<BucketLists::VertexInBucket, 32> block;
+  std::size_t count = 0;
+  const auto add_block = [&] {
+    graph_.buckets.add_to_buckets(std::span(block).first(count));
+    count = 0;
+  };
+  const Point origin{};
+  const std::span<const Point> positions = swept.chunk.positions;
+  const auto n = static_cast<std::uint32_t>(swept.order.size());
+  for (std::uint32_t v = 0, end = n; v < n; v = end) {
+    const std::int64_t index = bucket_index(swept.value(VertexRank(v)), *options_.bucket_exponent);
+    end = swept.end_of_bucket(v, index, *options_.bucket_exponent);
+    graph_.buckets.start_bucket(index);
+    for (VertexRank r(v); r.value() < end; ++r) {
+      const SweepArc arc = arc_of_regular_[r];
+      if (arc == SweepArc::none()) continue;
+      const BucketLists::Index bucket = graph_.buckets.current_bucket(graph_.arc_buckets[arc]);
+      const Point* const position = positions.empty() ? &origin : &positions[swept.local(r).value()];
+      prefetch(position);
       graph_.buckets.prefetch_sum(bucket);
+      block[count++] = {position, bucket};
+      if (count == block.size()) add_block();
     }
-    graph_.buckets.add_to_bucket(regular_[i].bucket, chunk.position(regular_[i].vertex));
   }
+  add_block();
 }
 
 void FragmentBuilder::sort_steps(const SweptChunk& swept, const SharedEdges& shared) {
@@ -163,9 +179,8 @@ void FragmentBuilder::add_steps(const SharedEdges& shared, Fragment& fragment) c
 
 std::size_t FragmentBuilder::memory_bytes() const {
   return graph_.memory_bytes() + leaf_removal_.memory_bytes() + division_.memory_bytes() + 8 * steps_.capacity() +
-         8 * (followed_.capacity() + regular_.capacity()) + 4 * settled_number_.capacity() +
-         4 * (node_of_.capacity() + path_arcs_.capacity() + degrees_.capacity() + arcs_xor_.capacity() +
-              leaves_.capacity());
+         4 * (node_of_.capacity() + arc_of_regular_.capacity() + settled_number_.capacity() + path_arcs_.capacity() +
+              degrees_.capacity() + arcs_xor_.capacity() + leaves_.capacity());
 }
 
 }  // namespace reeb

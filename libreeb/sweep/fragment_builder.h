@@ -24,14 +24,9 @@ class FragmentBuilder {
   void end_arc(SweepArc arc, SweepNode upper_node) { graph_.arcs[arc].hi = upper_node; }
   // Notes that the node has this arc and no other.
   void note_leaf(SweepNode node, SweepArc arc) { graph_.leaves.push_back({node, arc}); }
-  // Says that the vertices up to the next call are in the bucket of this index, which rises from call to call.
-  void start_bucket(std::int64_t index) { graph_.buckets.start_bucket(index); }
-  // Adds a regular vertex, which no other chunk uses, to the arc.
-  void add_regular(SweepArc arc, LocalVertex v) {
-    regular_.push_back({v, graph_.buckets.current_bucket(graph_.arc_buckets[arc])});
-  }
-  // Says that a regular vertex, which no other chunk uses, lies on the arc.
-  void follow(SweepArc arc, LocalVertex v) { followed_.push_back({arc, v}); }
+  // Notes a regular vertex, which no other chunk uses, on the arc. REQUIRES: there is an embedding, or the options say
+  // that vertices are followed.
+  void note_regular(SweepArc arc, VertexRank v) { arc_of_regular_[v] = arc; }
   // Sets the arc up from `node` that a path takes unless another branch is noted for it.
   void set_main_branch(SweepNode node, SweepArc arc) { graph_.nodes[node].main_branch = arc; }
 
@@ -70,7 +65,7 @@ class FragmentBuilder {
     std::uint64_t bits_;
   };
 
-  void add_positions(const Chunk& chunk);
+  void add_positions(const SweptChunk& swept);
   void start_fragment(const SweptChunk& swept, Fragment& fragment);
   void mark_arcs_between_used(const SweptChunk& swept);
   void add_followed(const SweptChunk& swept, Fragment& fragment);
@@ -82,21 +77,12 @@ class FragmentBuilder {
   SweepGraph graph_;
   ChunkLeafRemoval leaf_removal_;
   FragmentDivision division_;
-  IdVector<VertexRank, SweepNode> node_of_;  // set for nodes only
-  struct Regular {
-    LocalVertex vertex;
-    BucketLists::Index bucket;
-  };
-  std::vector<Regular> regular_;                   // with an embedding, in the order of the sweep
+  IdVector<VertexRank, SweepNode> node_of_;        // set for nodes only
+  IdVector<VertexRank, SweepArc> arc_of_regular_;  // of other vertices, none()
   std::vector<PackedStep> steps_;                  // sorted
   std::vector<SweepArc> path_arcs_;                // as in the fragment
   std::vector<std::uint32_t> degrees_, arcs_xor_;  // of a tree, by node
   std::vector<SweepNode> leaves_;
-  struct Followed {
-    SweepArc arc;
-    LocalVertex vertex;
-  };
-  std::vector<Followed> followed_;
   std::vector<std::uint32_t> settled_number_;  // by arc of the sweep
 };
 
