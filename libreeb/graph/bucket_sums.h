@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 
 #include "libreeb/base/prefetch.h"
@@ -88,11 +88,13 @@ struct BucketSum {
     bool is_higher = other[0] > rim[0];
     if (other[0] == rim[0]) [[unlikely]]
       is_higher = other[1] > rim[1] || (other[1] == rim[1] && other[2] > rim[2]);
-    const std::uint32_t replaced = is_higher ? ~std::uint32_t{0} : 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto bits = std::bit_cast<std::uint32_t>(rim[k]), other_bits = std::bit_cast<std::uint32_t>(other[k]);
-      rim[k] = std::bit_cast<float>(bits ^ ((bits ^ other_bits) & replaced));
-    }
+    const std::uint64_t replaced = is_higher ? ~std::uint64_t{0} : 0;
+    rim[0] = std::max(rim[0], other[0]);
+    std::uint64_t rest, other_rest;
+    std::memcpy(&rest, &rim[1], sizeof rest);
+    std::memcpy(&other_rest, &other[1], sizeof rest);
+    rest ^= (rest ^ other_rest) & replaced;
+    std::memcpy(&rim[1], &rest, sizeof rest);
   }
   void add_large(const Point& position);
   [[noreturn]] static void refuse_vertices();
