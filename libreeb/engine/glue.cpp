@@ -149,6 +149,7 @@ void Glue::prefetch(std::span<const Fragment::Step> steps) {
   for (const Fragment::Step& step : steps) {
     if (step.completes) {
       node_of_.prefetch(graph_.key(nodes_[step.index]).vertex.value());
+      graph_.prefetch_position(nodes_[step.index]);
     } else if (const Index edge = pending_[step.index].edge; edge != kNone) {
       ahead_.push_back(edges_[edge].top);
       edge_of_.prefetch(edge_key(edges_[edge].lo, edges_[edge].hi));

@@ -73,10 +73,16 @@ class LiveGraph {
   // Reads what a zip reads of the arc of a reference, so that it is in the cache then; returns the next reference of
   // the path.
   Index prefetch(Index reference) const {
-    const Node& node = graph_.nodes[graph_.arcs[graph_.references[reference].arc].lo()];
+    const Index arc = graph_.references[reference].arc;
+    const Node& node = graph_.nodes[graph_.arcs[arc].lo()];
     reeb::prefetch(&node.key);
     reeb::prefetch(&node.state);
+    if (embeds_) buckets_.prefetch(arc_buckets_[arc]);
     return graph_.references[reference].down;
+  }
+  // Prefetches what complete() reads where it contracts the node.
+  void prefetch_position(Index node) const {
+    if (embeds_ && track_positions_) reeb::prefetch(&positions_[node]);
   }
   // Merges two paths with the same ends into one. `a` stays a valid top, `b` does not.
   void zip(Index a, Index b);
