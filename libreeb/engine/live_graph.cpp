@@ -133,7 +133,6 @@ void LiveGraph::zip(Index a, Index b) {
 }
 
 void LiveGraph::merge_parallel(Index keep, Index gone) {
-  prefetch_buckets(keep, gone);
   Index last = kNone;
   for (Index r = graph_.arcs[gone].first_reference; r != kNone; r = graph_.references[r].next) {
     graph_.references[r].arc = keep;
@@ -220,7 +219,6 @@ void LiveGraph::zip_beads(Index into, Index from, Index top, Index bottom) {
 // `longer` then ends at the lower node of `shorter`.
 void LiveGraph::cut(Index longer, Index shorter) {
   const Index top = graph_.arcs[longer].hi(), bottom = graph_.arcs[shorter].lo();
-  prefetch_buckets(longer, shorter);
   queue(top);
   graph_.detach(longer, kUp);
   Index r = std::exchange(graph_.arcs[longer].first_reference, kNone);
