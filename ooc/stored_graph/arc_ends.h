@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "libreeb/graph/reeb_graph.h"
@@ -24,15 +25,15 @@ class ArcEnds {
     goes_down_[place(arc.hi)] = true;
   }
 
-  // Keeps the arcs connected, through shared ends, to an arc that touches an extremum of the whole graph; or all arcs,
-  // if it takes too many rounds over them to tell.   TIME: O(arcs).
-  void keep_connected_to_extrema(std::vector<ArcKeys>& arcs);
+  // Returns the arcs connected, through shared ends, to an arc that touches an extremum of the whole graph; or all
+  // arcs, if it takes too many rounds over them to tell.   TIME: O(arcs).
+  std::vector<ArcKeys> connected_to_extrema(std::span<const ArcKeys> arcs);
 
  private:
   static std::size_t place(const SweepKey& key) { return static_cast<std::size_t>(key.vertex.value()); }
   bool ends_in_extremum(const ArcKeys& arc) const { return !goes_down_[place(arc.lo)] || !goes_up_[place(arc.hi)]; }
   // Marks the ends of arcs that touch a marked vertex. Returns whether that marked a new one.
-  bool spread(const std::vector<ArcKeys>& arcs);
+  bool spread(std::span<const ArcKeys> arcs);
 
   std::vector<bool> goes_up_, goes_down_, near_;  // by vertex
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "libreeb/containers/growing_array.h"
 #include "libreeb/containers/union_find.h"
 #include "libreeb/graph/packed_buckets.h"
 #include "libreeb/graph/reeb_graph.h"
@@ -23,13 +24,13 @@ std::uint64_t search_bytes(std::uint64_t arcs, std::uint64_t nodes) {
   return kNode * nodes + kArc * arcs + std::max(SparseNodeTable::bytes(nodes), kScopeNode * nodes + kScopeArc * arcs);
 }
 
-// Memory to make that graph from arcs in a vector of this capacity.
-std::uint64_t short_graph_bytes(std::uint64_t arcs, std::uint64_t capacity) {
-  return sizeof(ArcKeys) * capacity + (4 * sizeof(SweepKey) + 2 * sizeof(NodeId)) * arcs;
+// Memory to make that graph from these arcs, of which this many are held.
+std::uint64_t short_graph_bytes(std::uint64_t arcs, std::uint64_t held) {
+  return sizeof(ArcKeys) * held + (4 * sizeof(SweepKey) + 2 * sizeof(NodeId)) * arcs;
 }
 
-// Growing by a quarter copies little and leaves little unused.
-std::size_t next_capacity(std::size_t capacity) { return std::max<std::size_t>(1024, capacity + capacity / 4); }
+// Room for a quarter more is made at once, so that little is unused.
+std::size_t next_room(std::size_t arcs) { return std::max<std::size_t>(1024, arcs + arcs / 4); }
 
 // The memory for removing noise if all of the graph is touched, including the change.
 std::uint64_t most_bytes(const NoisyGraph& graph) {
@@ -49,32 +50,30 @@ void note_ends(const NoisyGraph& graph) {
   if (vertices != 0 && bytes <= few && graph.room.try_spare(bytes)) graph.room.ends.emplace(vertices);
 }
 
-void grow(PassRoom& room, std::vector<ArcKeys>& arcs) {
-  const std::size_t before = arcs.capacity(), after = next_capacity(before);
-  if (room.make((before + after) * sizeof(ArcKeys), 0))
-    arcs.reserve(after);
-  else
-    std::vector<ArcKeys>().swap(arcs);
-}
-
 // Short arcs that end in an extremum, plus those connected to them; or all short arcs if that takes too long to tell.
 std::vector<ArcKeys> find_short_arcs(const NoisyGraph& graph) {
   PassRoom& room = graph.room;
-  std::vector<ArcKeys> found;
+  GrowingArray<ArcKeys> found;
   std::uint64_t count = 0;
+  std::size_t has_room = 0;  // arcs
   note_ends(graph);
   graph.store.scan_arc_keys([&](const ArcKeys& arc) {
     if (room.ends) room.ends->add(arc);
     if (!is_short(arc.lo.value, arc.hi.value, graph.options.threshold)) return;
-    ++count;
-    if (room.fits() && found.size() == found.capacity()) grow(room, found);
-    if (room.fits()) found.push_back(arc);
+    if (count++ == has_room) room.make(sizeof(ArcKeys) * (has_room = next_room(has_room)), 0);
+    if (!room.fits()) return;
+    found.grow_by(1);
+    found[found.size() - 1] = arc;
   });
-  if (room.ends) room.ends->keep_connected_to_extrema(found);
-  room.make(short_graph_bytes(found.size(), found.capacity()), 0);
-  if (room.fits()) return found;
-  room.refuse(short_graph_bytes(count, 2 * count + next_capacity(0)) + search_bytes(count, 2 * count) +
-              most_bytes(graph));
+  if (room.fits()) room.make(2 * sizeof(ArcKeys) * count, 0);
+  if (room.fits()) {
+    std::vector<ArcKeys> kept = room.ends ? room.ends->connected_to_extrema(found.all())
+                                          : std::vector<ArcKeys>(found.all().begin(), found.all().end());
+    found = {};
+    room.make(short_graph_bytes(kept.size(), kept.size()), 0);
+    if (room.fits()) return kept;
+  }
+  room.refuse(short_graph_bytes(count, 2 * count + next_room(0)) + search_bytes(count, 2 * count) + most_bytes(graph));
   return {};
 }
 
