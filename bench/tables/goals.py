@@ -9,8 +9,7 @@ WHY = {
     "tiles": "pieces that come in no order are sorted on disk, or glued with long borders",
     "noise": "the noise at the borders of tiles stays in memory until the tiles beside them come",
     "random order": "sorting the mesh on disk by position takes half of the time",
-    "sums": "of 5 ns a triangle, 3 add vertices to the exact sums of their buckets, 1 notes the bucket of each, and the "
-            "rest divides and joins buckets",
+    "sums": "most of it adds vertices to the exact sums of their buckets; the rest divides and joins buckets",
     "buckets": "a third of it looks for noise; the rest stores, sorts, packs and writes buckets, of which most arcs have "
                "one; compressing takes 7 ns, and no function more than 4",
     "hierarchy": "cancelling takes more than half of the time, and mostly waits for nodes, arcs and lists of buckets from "

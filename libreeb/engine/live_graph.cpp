@@ -367,7 +367,7 @@ void LiveGraph::release_beads(Index a) {
 void LiveGraph::contract(Index n) {
   const Index above = graph_.nodes[n].first(kUp), lower = graph_.nodes[n].first(kDown);
   prefetch_buckets(lower, above);
-  if (embeds_ && track_positions_) reeb::prefetch(&positions_[n]);
+  prefetch_position(n);
   if (log_ != nullptr) log_->join(lower, above, graph_.nodes[n].key, kDown);
   BucketLists::List* const above_buckets = embeds_ ? &lowest_buckets(above) : nullptr;
   const double value = graph_.nodes[n].key.value;

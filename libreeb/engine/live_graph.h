@@ -80,7 +80,7 @@ class LiveGraph {
     if (embeds_) buckets_.prefetch(arc_buckets_[arc]);
     return graph_.references[reference].down;
   }
-  // Prefetches what complete() reads where it contracts the node.
+  // Prefetches the position that tidy() reads when it contracts the node.
   void prefetch_position(Index node) const {
     if (embeds_ && track_positions_) reeb::prefetch(&positions_[node]);
   }

@@ -31,9 +31,11 @@ struct Bucket {
 // What is stored of a mean squared distance, which rounding may have made negative.
 float to_spread(double spread) noexcept;
 
-// The position in single precision. REQUIRES: its coordinates are at most 2^50, which need no care.
+// The position in single precision, without -0, so that equal points have equal bits. REQUIRES: its coordinates are at
+// most 2^50, which need no care.
 inline RimPoint near_rim_of(const std::array<double, 3>& position) {
-  return {static_cast<float>(position[0]), static_cast<float>(position[1]), static_cast<float>(position[2])};
+  return {static_cast<float>(position[0]) + 0.0F, static_cast<float>(position[1]) + 0.0F,
+          static_cast<float>(position[2]) + 0.0F};
 }
 // The same for any finite position: a coordinate beyond the floats is the largest of them.
 inline RimPoint rim_of(const std::array<double, 3>& position) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -75,7 +74,7 @@ BucketLists::Index BucketLists::new_bucket(const BucketSum& bucket) {
 }
 
 void BucketLists::add_to_buckets(std::span<const VertexInBucket> vertices) {
-  BucketSum* const sums = sums_.data();
+  BucketSum* const sums = sums_.data();  // stays in a register: no write to a sum can change it
   for (const auto& [position, bucket] : vertices) sums[bucket].add(*position);
 }
 

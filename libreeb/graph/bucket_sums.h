@@ -83,7 +83,9 @@ struct BucketSum {
     if (more > ~count) [[unlikely]]
       refuse_vertices();
   }
-  // Mostly x decides, and which vertex is next cannot be predicted. So there are no other branches.
+  // Which vertex is next cannot be predicted, so only a tie in x takes a branch. Vertices that follow each other are
+  // often of one bucket, and wait for these fields. So x is a maximum of its own, and y and z are replaced as one
+  // number.
   void raise_rim(const RimPoint& other) {
     bool is_higher = other[0] > rim[0];
     if (other[0] == rim[0]) [[unlikely]]
@@ -139,7 +141,7 @@ class BucketLists {
     visit_lists([&](List& list) { coarsen(list, levels); });
   }
 
-  // For a sweep: all vertices up to the next call are in buckets of this index.
+  // For the vertices of a sweep, ascending: all up to the next call are in buckets of this index.
   // REQUIRES: the index is not less than before (it may be the same); while vertices are added through
   // current_bucket(), nothing else changes the lists.
   void start_bucket(std::int64_t index) {
@@ -155,6 +157,7 @@ class BucketLists {
     const Point* position;
     Index bucket;
   };
+  // REQUIRES: the buckets are from current_bucket(). Positions and buckets should have been prefetched.
   void add_to_buckets(std::span<const VertexInBucket> vertices);
 
   // Like all that add up buckets, these throw what BucketSum::check_room() does.

@@ -1,7 +1,6 @@
 #include "libreeb/sweep/chunk_sweep.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 #include <vector>
 
@@ -307,7 +306,7 @@ void ChunkSweep::Scratch::reset(const SweepOptions& options) {
   const std::size_t n = chunk->vertex_count();
   find_uses();
   crossings.reset(stars.triangle_count());
-  notes_regular = options.bucket_exponent || options.follows_vertices;
+  notes_regular = options.notes_regular();
   manifold = options.manifold;
   labels.clear();
   up.reset(n);

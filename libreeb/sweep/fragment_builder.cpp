@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <span>
 
 #include "libreeb/base/prefetch.h"
 #include "libreeb/sweep/chunk.h"
@@ -12,7 +14,7 @@ void FragmentBuilder::start(std::size_t vertices, const SweepOptions& options) {
   options_ = options;
   graph_.clear();
   if (options.bucket_exponent) graph_.buckets.start(*options.bucket_exponent);
-  if (options.bucket_exponent || options.follows_vertices) fill_with_room(arc_of_regular_, vertices, SweepArc::none());
+  if (options.notes_regular()) fill_with_room(arc_of_regular_, vertices, SweepArc::none());
   node_of_.resize(vertices);
 }
 

@@ -24,8 +24,7 @@ class FragmentBuilder {
   void end_arc(SweepArc arc, SweepNode upper_node) { graph_.arcs[arc].hi = upper_node; }
   // Notes that the node has this arc and no other.
   void note_leaf(SweepNode node, SweepArc arc) { graph_.leaves.push_back({node, arc}); }
-  // Notes a regular vertex, which no other chunk uses, on the arc. REQUIRES: there is an embedding, or the options say
-  // that vertices are followed.
+  // Notes a regular vertex, which no other chunk uses, on the arc. REQUIRES: the options say that they are noted.
   void note_regular(SweepArc arc, VertexRank v) { arc_of_regular_[v] = arc; }
   // Sets the arc up from `node` that a path takes unless another branch is noted for it.
   void set_main_branch(SweepNode node, SweepArc arc) { graph_.nodes[node].main_branch = arc; }

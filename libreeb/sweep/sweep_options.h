@@ -18,6 +18,9 @@ struct SweepOptions {
   // The path of an edge is dropped after its second triangle; a third one is an Error{kNotManifold}. A listed edge and
   // a degenerate triangle count as triangles at their edge.
   bool manifold = false;
+
+  // Whether a sweep notes on which arc a regular vertex is.
+  bool notes_regular() const { return bucket_exponent || follows_vertices; }
 };
 
 }  // namespace reeb

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <functional>
 #include <limits>
 #include <map>
@@ -70,6 +71,16 @@ TEST(BucketSum, KnowsTheSpreadAndTheRim) {
   }
 }
 
+TEST(BucketSum, HasARimWithoutSignsOfZero) {
+  const Point points[] = {{-1e-60, 0, -0.0}, {0, 1, 0}, {-0.0, 1, -0.0}};  // -0 in single precision
+  for (std::size_t first = 0; first < 3; ++first) {
+    BucketSum sum;
+    for (std::size_t i = 0; i < 3; ++i) sum.add(points[(first + i) % 3]);
+    EXPECT_EQ(sum.rim, (RimPoint{0, 1, 0}));
+    for (const float x : sum.rim) EXPECT_FALSE(std::signbit(x));
+  }
+}
+
 TEST(BucketSum, RoundsToItsUnitAndCutsOffWhatItCannotHold) {
   const double unit = 0x1p-44, most = 0x1p50;
   const auto mean = [](double x) {
@@ -79,6 +90,12 @@ TEST(BucketSum, RoundsToItsUnitAndCutsOffWhatItCannotHold) {
   };
   for (const double x : {0.0, 1.5, -1.5, unit, -unit, 0x1p18, -0x1p18, 0x1p18 + 0x1p-34, most, -most, 1e15 + 0.125})
     EXPECT_EQ(mean(x), x);
+  const double small = std::nextafter(0x1p18, 0);  // the greatest that takes the short way
+  EXPECT_EQ(mean(small), small);
+  EXPECT_EQ(mean(-small), -small);
+  BucketSum half;
+  half.add(Point{0x1p17, -0x1p17, 0x1p17});
+  EXPECT_EQ(half.mean().mean, (std::array<double, 3>{0x1p17, -0x1p17, 0x1p17}));
   EXPECT_EQ(mean(unit / 2), 0);
   EXPECT_EQ(mean(1 + unit * 1.5), 1 + unit);
   const double infinity = std::numeric_limits<double>::infinity();
@@ -168,6 +185,7 @@ class ManyLists {
     pool_.start(exponent_);
     for (std::int64_t index = -20; index < 20 && !few_; index += static_cast<std::int64_t>(random_.below(3)))
       sweep(index);
+    add_noted();
     for (std::uint64_t steps = random_.below(60); steps > 0; --steps) step();
   }
 
@@ -198,10 +216,15 @@ class ManyLists {
       BucketSum vertex{.index = index};
       const Point position = random_point(random_);
       vertex.add(position);
-      const BucketLists::VertexInBucket added[] = {{&position, pool_.current_bucket(lists_[i])}};
-      pool_.add_to_buckets(added);
+      positions_.push_back(position);
+      noted_.push_back({&positions_.back(), pool_.current_bucket(lists_[i])});
+      if (random_.chance(5)) add_noted();
       models_[i].add(vertex);
     }
+  }
+  void add_noted() {
+    pool_.add_to_buckets(noted_);
+    noted_.clear();
   }
 
   void step() {
@@ -303,6 +326,8 @@ class ManyLists {
   BucketLists pool_;
   std::array<BucketLists::List, kLists> lists_{};
   std::array<Model, kLists> models_;
+  std::deque<Point> positions_;
+  std::vector<BucketLists::VertexInBucket> noted_;  // not added yet
 };
 
 TEST(BucketLists, HoldWhatMapsHold) {
