@@ -24,12 +24,12 @@ std::uint64_t search_bytes(std::uint64_t arcs, std::uint64_t nodes) {
   return kNode * nodes + kArc * arcs + std::max(SparseNodeTable::bytes(nodes), kScopeNode * nodes + kScopeArc * arcs);
 }
 
-// Memory to make that graph from these arcs, of which this many are held.
+// Memory to make that graph from this many arcs, while there is room for `held` arcs.
 std::uint64_t short_graph_bytes(std::uint64_t arcs, std::uint64_t held) {
   return sizeof(ArcKeys) * held + (4 * sizeof(SweepKey) + 2 * sizeof(NodeId)) * arcs;
 }
 
-// Room for a quarter more is made at once, so that little is unused.
+// Memory is reserved for a quarter more arcs at a time, so that little of it is unused.
 std::size_t next_room(std::size_t arcs) { return std::max<std::size_t>(1024, arcs + arcs / 4); }
 
 // The memory for removing noise if all of the graph is touched, including the change.
@@ -60,7 +60,10 @@ std::vector<ArcKeys> find_short_arcs(const NoisyGraph& graph) {
   graph.store.scan_arc_keys([&](const ArcKeys& arc) {
     if (room.ends) room.ends->add(arc);
     if (!is_short(arc.lo.value, arc.hi.value, graph.options.threshold)) return;
-    if (count++ == has_room) room.make(sizeof(ArcKeys) * (has_room = next_room(has_room)), 0);
+    if (count++ == has_room) {
+      has_room = next_room(has_room);
+      room.make(sizeof(ArcKeys) * has_room, 0);
+    }
     if (!room.fits()) return;
     found.grow_by(1);
     found[found.size() - 1] = arc;

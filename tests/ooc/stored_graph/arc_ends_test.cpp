@@ -33,7 +33,7 @@ std::vector<bool> near_extrema(const ReebGraph& graph, const std::vector<bool>& 
   return near;
 }
 
-TEST(ArcEnds, KeepsWhatHangsTogetherWithAnExtremum) {
+TEST(ArcEnds, KeepsWhatIsConnectedToAnExtremum) {
   const std::uint64_t seed = test::base_seed(), cases = test::case_count(500);
   std::size_t kept = 0, dropped = 0;
   for (std::uint64_t i = 0; i < cases && !HasFailure(); ++i) {
