@@ -22,8 +22,7 @@ class TagMap {
       ++last->count;
     } else {
       ascending_ = ascending_ && (last == nullptr || tag > last->tag);
-      runs_.grow_by(1);
-      runs_[runs_.size() - 1] = {tag, size_, 1};
+      runs_.append({tag, size_, 1});
     }
     ++size_;
     by_tag_.clear();

@@ -56,6 +56,12 @@ class GrowingArray {
     size_ += count;
     most_ = std::max(most_, size_);
   }
+  // `value` is a copy: it may come from this array, which can move.
+  // THROWS: std::bad_alloc.
+  void append(T value) {
+    grow_by(1);
+    data_.get()[size_ - 1] = value;
+  }
 
   // Keeps the memory.
   void clear() { size_ = 0; }

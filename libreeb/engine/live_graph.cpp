@@ -21,10 +21,7 @@ void LiveGraph::set_options(const SweepOptions& options) {
 }
 
 void LiveGraph::grow_arc_buckets() {
-  while (arc_buckets_.size() < graph_.arcs.size()) {
-    arc_buckets_.grow_by(1);
-    arc_buckets_[arc_buckets_.size() - 1] = {};
-  }
+  while (arc_buckets_.size() < graph_.arcs.size()) arc_buckets_.append({});
 }
 
 // ---- nodes and arcs

@@ -47,10 +47,7 @@ std::uint32_t ArcHistory::undo(const ArcEvent& event) {
 // ---- lists
 
 ArcHistory::List& ArcHistory::list(Arc arc) {
-  while (lists_.size() <= arc) {
-    lists_.grow_by(1);
-    lists_[lists_.size() - 1] = {};
-  }
+  while (lists_.size() <= arc) lists_.append({});
   return lists_[arc];
 }
 

@@ -65,8 +65,7 @@ std::vector<ArcKeys> find_short_arcs(const NoisyGraph& graph) {
       room.make(sizeof(ArcKeys) * has_room, 0);
     }
     if (!room.fits()) return;
-    found.grow_by(1);
-    found[found.size() - 1] = arc;
+    found.append(arc);
   });
   if (room.fits()) room.make(2 * sizeof(ArcKeys) * count, 0);
   if (room.fits()) {
