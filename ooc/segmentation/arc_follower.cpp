@@ -5,6 +5,7 @@
 
 #include "libreeb/segmentation/arc_history.h"
 #include "libreeb/segmentation/parallel_arcs.h"
+#include "ooc/stored_graph/load_graph.h"
 
 namespace reeb::ooc {
 namespace {
@@ -45,7 +46,7 @@ void ArcFollower::start_over() {
 
 void ArcFollower::add_arcs(const SettledArcs& settled) {
   for (const ArcKeys& keys : settled.arcs) {
-    const std::uint32_t number = state_->arcs_added++;
+    const auto number = static_cast<std::uint32_t>(state_->arcs_added++);
     state_->arcs.add({keys}, std::as_bytes(std::span(&number, 1)));
   }
 }
@@ -56,6 +57,8 @@ std::uint64_t ArcFollower::spilled_bytes() const {
 }
 
 FollowedGraph ArcFollower::finish() {
+  // Numbers of more arcs have wrapped: nothing that they named is used.
+  require_numbers(state_->nodes.size(), state_->arcs_added, {});
   if (state_->arcs_added != state_->log.settled()) throw std::logic_error("an arc was settled and not stored");
   FollowedGraph followed = read_graph();
   read_history();
@@ -101,7 +104,8 @@ FollowedGraph ArcFollower::read_graph() {
   state_->arcs.finish(0, options_.poll);
   FollowedGraph followed;
   ReebGraph& graph = followed.graph;
-  const auto nodes = static_cast<std::size_t>(state_->nodes.size()), arcs = std::size_t{state_->arcs_added};
+  const auto nodes = static_cast<std::size_t>(state_->nodes.size()),
+             arcs = static_cast<std::size_t>(state_->arcs_added);
   followed.memory = budget_.reserve("graph", nodes * sizeof(SweepKey) + arcs * (2 * sizeof(NodeId) + sizeof(ArcId)));
   graph.nodes.reserve(nodes);
   std::vector<SettledNode> some_nodes;

@@ -49,7 +49,7 @@ class ArcFollower : public GraphSink {
   void add_arcs(const SettledArcs& settled) override;
 
   // Gives every vertex a place: the number of its arc when it was settled, or the position of its node in the graph.
-  // REQUIRES: the run is over.
+  // REQUIRES: the run is over.   THROWS: Error{kResource} as require_numbers(), too.
   FollowedGraph finish();
   PlacedVertices& places() { return state_->placed; }
   std::uint64_t spilled_bytes() const;
@@ -61,7 +61,7 @@ class ArcFollower : public GraphSink {
     EventLog log;
     SortedNodes nodes;
     SortedArcs arcs;
-    std::uint32_t arcs_added = 0;
+    std::uint64_t arcs_added = 0;
   };
 
   void read_history();
