@@ -23,7 +23,7 @@ foreach(folder IN LISTS folders)
   file(REMOVE "${doc}/LICENSE" "${doc}/NOTICE")
   file(TIMESTAMP "${CPACK_REEB_SOURCE}/CHANGELOG.md" date "%a, %d %b %Y %H:%M:%S +0000" UTC)
   file(WRITE "${doc}/changelog" "reeb (${CPACK_PACKAGE_VERSION}) unstable; urgency=medium\n\n"
-    "  * This version of reeb; CHANGELOG.md of its sources has all changes.\n\n"
+    "  * This version of reeb; CHANGELOG.md of its sources has the changes.\n\n"
     " -- ${CPACK_PACKAGE_CONTACT}  ${date}\n")
   run(gzip -9nf "${doc}/changelog")
 
