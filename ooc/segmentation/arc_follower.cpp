@@ -57,8 +57,9 @@ std::uint64_t ArcFollower::spilled_bytes() const {
 }
 
 FollowedGraph ArcFollower::finish() {
-  // Numbers of more arcs have wrapped: nothing that they named is used.
-  require_numbers(state_->nodes.size(), state_->arcs_added, {});
+  // Of more arcs, several have the same number; so this comes before any number is used.
+  require_numbers(state_->nodes.size(), state_->arcs_added, options_.names.graph,
+                  "take a mesh with fewer triangles; arcs of noise are numbered, too");
   if (state_->arcs_added != state_->log.settled()) throw std::logic_error("an arc was settled and not stored");
   FollowedGraph followed = read_graph();
   read_history();

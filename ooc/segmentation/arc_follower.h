@@ -49,7 +49,7 @@ class ArcFollower : public GraphSink {
   void add_arcs(const SettledArcs& settled) override;
 
   // Gives every vertex a place: the number of its arc when it was settled, or the position of its node in the graph.
-  // REQUIRES: the run is over.   THROWS: Error{kResource} as require_numbers(), too.
+  // REQUIRES: the run is over.   THROWS: also what require_numbers() does.
   FollowedGraph finish();
   PlacedVertices& places() { return state_->placed; }
   std::uint64_t spilled_bytes() const;

@@ -48,14 +48,14 @@ std::uint64_t graph_bytes(const SegmentStore& store, const LoadOptions& options)
 
 }  // namespace
 
-void require_numbers(std::uint64_t nodes, std::uint64_t arcs, const std::string& output) {
+void require_numbers(std::uint64_t nodes, std::uint64_t arcs, const std::string& file, const std::string& hint) {
   constexpr std::uint64_t kMost = ~std::uint32_t{0};
   if (nodes <= kMost && arcs <= kMost) return;
   throw Error(ErrorKind::kResource,
               "the graph has " + count_of(nodes, "node") + " and " + count_of(arcs, "arc") +
                   ", but at most 2^32 - 1 of each can be numbered",
-              "remove noise with --denoise, or more of it")
-      .at(output);
+              hint)
+      .at(file);
 }
 
 std::uint64_t loading_bytes(const SegmentStore& store, const LoadOptions& options) {

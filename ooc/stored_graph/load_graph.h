@@ -25,8 +25,9 @@ struct LoadOptions {
 };
 
 // Nodes and arcs are numbered in 32 bits, and one number stands for none.
-// THROWS: Error{kResource} about `output` if there are more.
-void require_numbers(std::uint64_t nodes, std::uint64_t arcs, const std::string& output);
+// THROWS: Error{kResource} about `file` if there are more.
+void require_numbers(std::uint64_t nodes, std::uint64_t arcs, const std::string& file,
+                     const std::string& hint = "remove noise with --denoise, or more of it");
 
 // The most that read_graph() reserves.
 std::uint64_t loading_bytes(const SegmentStore& store, const LoadOptions& options);
