@@ -108,6 +108,12 @@ class ByteReader {
   double f64() { return std::bit_cast<double>(u64()); }
 
   std::uint64_t varint() {
+    // Most have one byte.
+    if (!rest_.empty() && std::to_integer<unsigned>(rest_[0]) < 0x80) {
+      const auto value = std::to_integer<std::uint64_t>(rest_[0]);
+      rest_ = rest_.subspan(1);
+      return value;
+    }
     std::uint64_t value = 0;
     unsigned shift = 0;
     for (std::size_t i = 0; i < rest_.size() && shift < 64; shift += 7) {

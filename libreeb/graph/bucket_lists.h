@@ -48,12 +48,12 @@ template <class Lists = PackedLists>
 class BasicArcBucketLists {
  public:
   // REQUIRES: all buckets are of this exponent, and none is empty.
-  BasicArcBucketLists(Lists lists, int exponent) : exponent_(exponent), packed_(std::move(lists)) {}
+  BasicArcBucketLists(Lists lists, int exponent) : index_of_(exponent), packed_(std::move(lists)) {}
 
   std::size_t arc_count() const { return packed_.size(); }
   bool empty(ArcId arc) const {
-    const std::uint32_t opened = open_.find(arc.value());
-    return opened != kNone ? opened_[opened].first == kNone : packed_.of(arc.value()).empty();
+    const std::uint32_t list = opened(arc);
+    return list != kNone ? opened_[list].first == kNone : packed_.of(arc.value()).empty();
   }
 
   // Prefetches where the arc's list is stored; when that has arrived, prefetch() fetches the list.
@@ -88,7 +88,7 @@ class BasicArcBucketLists {
   void hold(std::size_t opened) { packed_.hold(opened_.size() + opened); }
   void release() { packed_.release(); }
 
-  int exponent() const { return exponent_; }
+  int exponent() const { return index_of_.exponent(); }
   const Lists& packed() const { return packed_; }
 
  private:
@@ -98,49 +98,54 @@ class BasicArcBucketLists {
     std::uint32_t first;
   };
 
-  bool is_open(ArcId arc) const { return open_.find(arc.value()) != kNone; }
-  std::uint32_t& first(ArcId arc) { return opened_[open_.find(arc.value())].first; }
-  // The link from the bucket to the next one, or from the arc to its first bucket.
-  std::uint32_t& after(std::uint32_t bucket, ArcId arc) { return bucket == kNone ? first(arc) : next_[bucket]; }
-  void open(ArcId arc);
+  // The entry of an arc in opened_, or kNone; and that of an arc that is opened if it is not.
+  std::uint32_t opened(ArcId arc) const { return open_.find(arc.value()); }
+  std::uint32_t open(ArcId arc);
+  std::uint32_t& first(std::uint32_t list) { return opened_[list].first; }
+  // The link from the bucket to the next one, or from the list to its first bucket.
+  std::uint32_t& after(std::uint32_t bucket, std::uint32_t list) {
+    return bucket == kNone ? first(list) : next_[bucket];
+  }
   Bucket first_bucket(Direction d, ArcId arc);
   bool is_any_beyond(Direction d, ArcId arc, const CutValues& values) const;
   std::uint32_t make(const Bucket& bucket, std::uint32_t next);
-  void insert(std::uint32_t chain, ArcId into);
-  std::uint32_t last_below(ArcId arc, const CutValues& values);
+  void insert(std::uint32_t chain, std::uint32_t into);
+  std::uint32_t last_below(std::uint32_t list, const CutValues& values);
 
-  int exponent_;
+  BucketIndexer index_of_;
   Lists packed_;
   FlatMap open_;  // from arcs to their entries in opened_
   std::vector<Opened> opened_;
   std::vector<Bucket> buckets_;      // of opened lists
   std::vector<std::uint32_t> next_;  // by bucket: the one after it in its list, or kNone
-  std::vector<std::byte> bytes_;
+  std::vector<std::byte> bytes_;     // of close()
 };
 
 using ArcBucketLists = BasicArcBucketLists<>;
 
 template <class Lists>
-void BasicArcBucketLists<Lists>::open(ArcId arc) {
-  const auto begin = static_cast<std::uint32_t>(buckets_.size());
-  if (open_.find_or_insert(arc.value(), static_cast<std::uint32_t>(opened_.size())) != opened_.size()) return;
+std::uint32_t BasicArcBucketLists<Lists>::open(ArcId arc) {
+  const auto begin = static_cast<std::uint32_t>(buckets_.size()),
+             next_list = static_cast<std::uint32_t>(opened_.size());
+  if (const std::uint32_t list = open_.find_or_insert(arc.value(), next_list); list != next_list) return list;
   if (!unpack_buckets(packed_.of(arc.value()), buckets_))
     throw std::logic_error("ArcBucketLists: a list cannot be read");
   const auto end = static_cast<std::uint32_t>(buckets_.size());
   for (std::uint32_t next = begin; next < end;) next_.push_back(++next);
   if (begin < end) next_.back() = kNone;
   opened_.push_back({arc, begin < end ? begin : kNone});
+  return next_list;
 }
 
 template <class Lists>
 void BasicArcBucketLists<Lists>::close() {
   for (const Opened& opened : opened_) {
-    bytes_.clear();
-    std::uint64_t count = 0;
+    std::size_t count = 0;
     for (std::uint32_t bucket = opened.first; bucket != kNone; bucket = next_[bucket]) ++count;
-    BucketPacker packer(count, bytes_);
+    if (bytes_.size() < most_packed_bytes(count)) bytes_.resize(most_packed_bytes(count));
+    BucketPacker packer(count, bytes_.data());
     for (std::uint32_t bucket = opened.first; bucket != kNone; bucket = next_[bucket]) packer.add(buckets_[bucket]);
-    packed_.replace(opened.arc.value(), bytes_);
+    packed_.replace(opened.arc.value(), {bytes_.data(), packer.end()});
     open_.erase(opened.arc.value());
   }
   opened_.clear();
@@ -158,7 +163,7 @@ std::uint32_t BasicArcBucketLists<Lists>::make(const Bucket& bucket, std::uint32
 
 // Inserts a chain of buckets into a list, in order.
 template <class Lists>
-void BasicArcBucketLists<Lists>::insert(std::uint32_t chain, ArcId into) {
+void BasicArcBucketLists<Lists>::insert(std::uint32_t chain, std::uint32_t into) {
   std::uint32_t before = kNone;
   while (chain != kNone) {
     const std::int64_t index = buckets_[chain].index;
@@ -180,15 +185,15 @@ void BasicArcBucketLists<Lists>::insert(std::uint32_t chain, ArcId into) {
 
 template <class Lists>
 void BasicArcBucketLists<Lists>::add(ArcId arc, double value, const std::array<double, 3>& position) {
-  open(arc);
-  insert(make({bucket_index(value, exponent_), 1, position}, kNone), arc);
+  const std::uint32_t list = open(arc);
+  insert(make({index_of_(value), 1, position}, kNone), list);
 }
 
 // Divides the bucket that contains the cut, and returns the last bucket below the cut.
 template <class Lists>
-std::uint32_t BasicArcBucketLists<Lists>::last_below(ArcId arc, const CutValues& values) {
-  const std::int64_t middle = bucket_index(values.at, exponent_);
-  std::uint32_t before = kNone, bucket = first(arc);
+std::uint32_t BasicArcBucketLists<Lists>::last_below(std::uint32_t list, const CutValues& values) {
+  const std::int64_t middle = index_of_(values.at);
+  std::uint32_t before = kNone, bucket = first(list);
   while (bucket != kNone && buckets_[bucket].index < middle) {
     before = bucket;
     bucket = next_[bucket];
@@ -196,7 +201,7 @@ std::uint32_t BasicArcBucketLists<Lists>::last_below(ArcId arc, const CutValues&
   if (bucket == kNone || buckets_[bucket].index != middle) return before;
 
   const Bucket whole = buckets_[bucket];
-  const std::uint64_t below = vertices_below(whole, values, exponent_);
+  const std::uint64_t below = vertices_below(whole, values, exponent());
   if (below == 0) return before;
   if (below == whole.count) return bucket;
   next_[bucket] = make(part_of(whole, whole.count - below), next_[bucket]);
@@ -206,14 +211,15 @@ std::uint32_t BasicArcBucketLists<Lists>::last_below(ArcId arc, const CutValues&
 
 template <class Lists>
 double BasicArcBucketLists<Lists>::first_value(Direction d, ArcId arc, double lo, double hi) {
-  return first_value_of(first_bucket(d, arc), d, lo, hi, exponent_);
+  return first_value_of(first_bucket(d, arc), d, lo, hi, exponent());
 }
 
 // The first bucket in direction d.
 template <class Lists>
 Bucket BasicArcBucketLists<Lists>::first_bucket(Direction d, ArcId arc) {
-  if (!is_open(arc)) return packed_end(packed_.of(arc.value()), opposite(d));
-  std::uint32_t bucket = first(arc);
+  const std::uint32_t list = opened(arc);
+  if (list == kNone) return packed_end(packed_.of(arc.value()), opposite(d));
+  std::uint32_t bucket = first(list);
   while (d == kDown && next_[bucket] != kNone) bucket = next_[bucket];
   return buckets_[bucket];
 }
@@ -221,18 +227,18 @@ Bucket BasicArcBucketLists<Lists>::first_bucket(Direction d, ArcId arc) {
 template <class Lists>
 bool BasicArcBucketLists<Lists>::cut(Direction d, ArcId from, ArcId into, const CutValues& values) {
   // Half of all cuts move nothing. A list that is not opened need not be packed and stored again.
-  if (!is_open(from)) {
+  std::uint32_t list = opened(from);
+  if (list == kNone) {
     if (!is_any_beyond(d, from, values)) return false;
-    open(from);
+    list = open(from);
   }
-  const std::uint32_t last = last_below(from, values);
-  const std::uint32_t above = std::exchange(after(last, from), kNone);
-  const std::uint32_t below = first(from);
-  first(from) = d == kUp ? below : above;
+  const std::uint32_t last = last_below(list, values);
+  const std::uint32_t above = std::exchange(after(last, list), kNone);
+  const std::uint32_t below = first(list);
+  first(list) = d == kUp ? below : above;
   const std::uint32_t chain = d == kUp ? above : below;
   if (chain == kNone) return false;
-  open(into);
-  insert(chain, into);
+  insert(chain, open(into));
   return true;
 }
 
@@ -242,26 +248,24 @@ bool BasicArcBucketLists<Lists>::is_any_beyond(Direction d, ArcId arc, const Cut
   const auto packed = packed_.of(arc.value());
   if (packed.empty()) return false;
   const Bucket farthest = packed_end(packed, d);
-  const std::int64_t middle = bucket_index(values.at, exponent_);
+  const std::int64_t middle = index_of_(values.at);
   if (farthest.index != middle) return (farthest.index > middle) == (d == kUp);
-  const std::uint64_t below = vertices_below(farthest, values, exponent_);
+  const std::uint64_t below = vertices_below(farthest, values, exponent());
   return d == kUp ? below != farthest.count : below != 0;
 }
 
 template <class Lists>
 bool BasicArcBucketLists<Lists>::merge(ArcId from, ArcId into) {
   if (empty(from)) return false;
-  open(from);
-  open(into);
-  insert(std::exchange(first(from), kNone), into);
+  const std::uint32_t list = open(from), target = open(into);
+  insert(std::exchange(first(list), kNone), target);
   return true;
 }
 
 template <class Lists>
 std::uint64_t BasicArcBucketLists<Lists>::drop(ArcId arc) {
-  open(arc);
   std::uint64_t count = 0;
-  for (std::uint32_t bucket = std::exchange(first(arc), kNone); bucket != kNone; bucket = next_[bucket])
+  for (std::uint32_t bucket = std::exchange(first(open(arc)), kNone); bucket != kNone; bucket = next_[bucket])
     count += buckets_[bucket].count;
   return count;
 }

@@ -11,9 +11,8 @@ namespace {
 
 using Single = std::array<float, 3>;
 static_assert(kLeastPackedBucketBytes == 2 + sizeof(Single));
-
-constexpr std::size_t kMaxBucketBytes =
-    2 * kMaxVarintBytes + sizeof(Bucket::mean) + sizeof(Bucket::spread) + sizeof(Bucket::rim);
+static_assert(kMostBucketBytes ==
+              2 * kMaxVarintBytes + sizeof(Bucket::mean) + sizeof(Bucket::spread) + sizeof(Bucket::rim));
 
 bool is_single(const std::array<double, 3>& mean) {
   return std::ranges::all_of(mean, [](double x) { return static_cast<double>(static_cast<float>(x)) == x; });
@@ -25,53 +24,53 @@ std::byte* put_raw(std::byte* to, const T& value) {
   return to + sizeof(value);
 }
 
+// Leaves `value` as it is if there are too few bytes.
 template <class T>
-T get_raw(ByteReader& in) {
-  T value{};
-  const auto bytes = in.bytes(sizeof(T));
-  if (!bytes.empty()) std::memcpy(&value, bytes.data(), sizeof(T));
-  return value;
+void get_raw(ByteReader& in, T& value) {
+  if (const auto bytes = in.bytes(sizeof(T)); !bytes.empty()) std::memcpy(&value, bytes.data(), sizeof(T));
 }
 
-// The next bucket, which is new. `last` is the index of the one before, and its own is returned.
-std::int64_t get_bucket(ByteReader& in, std::int64_t last, Bucket& bucket) {
+// The next bucket, which is new. `last` is the index of the one before, and its own is returned. Always inlined, since
+// a call would keep the reader in memory and not in registers.
+[[gnu::always_inline]] inline std::int64_t get_bucket(ByteReader& in, std::int64_t last, Bucket& bucket) {
   bucket.index = static_cast<std::int64_t>(in.delta(static_cast<std::uint64_t>(last)));
   const std::uint64_t count_and_form = in.varint();
   bucket.count = count_and_form >> 1;
-  if ((count_and_form & 1) == 0)
-    bucket.mean = get_raw<std::array<double, 3>>(in);
-  else
-    std::ranges::copy(get_raw<Single>(in), bucket.mean.begin());
+  if ((count_and_form & 1) == 0) {
+    get_raw(in, bucket.mean);
+  } else {
+    Single mean{};
+    get_raw(in, mean);
+    for (std::size_t k = 0; k < mean.size(); ++k) bucket.mean[k] = static_cast<double>(mean[k]);
+  }
   if (bucket.count > 1) {
-    bucket.spread = get_raw<float>(in);
-    bucket.rim = get_raw<RimPoint>(in);
+    get_raw(in, bucket.spread);
+    get_raw(in, bucket.rim);
   }
   return bucket.index;
 }
 
 }  // namespace
 
-BucketPacker::BucketPacker(std::uint64_t count, std::vector<std::byte>& packed) : packed_(packed) {
-  if (count != 0) ByteWriter(packed_).varint(count);
-}
-
 void BucketPacker::add(const Bucket& bucket) {
-  std::array<std::byte, kMaxBucketBytes> bytes;
   const bool single = is_single(bucket.mean);
   std::byte* to =
-      put_varint(bytes.data(), delta_code(static_cast<std::uint64_t>(bucket.index), static_cast<std::uint64_t>(last_)));
+      put_varint(end_, delta_code(static_cast<std::uint64_t>(bucket.index), static_cast<std::uint64_t>(last_)));
   to = put_varint(to, bucket.count << 1 | (single ? 1 : 0));
   const auto& [x, y, z] = bucket.mean;
   to = single ? put_raw(to, Single{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)})
               : put_raw(to, bucket.mean);
   if (bucket.count > 1) to = put_raw(put_raw(to, bucket.spread), bucket.rim);
-  packed_.insert(packed_.end(), bytes.data(), to);
+  end_ = to;
   last_ = bucket.index;
 }
 
 void pack_buckets(std::span<const Bucket> buckets, std::vector<std::byte>& packed) {
-  BucketPacker packer(buckets.size(), packed);
+  const std::size_t before = packed.size();
+  packed.resize(before + most_packed_bytes(buckets.size()));
+  BucketPacker packer(buckets.size(), packed.data() + before);
   for (const Bucket& bucket : buckets) packer.add(bucket);
+  packed.resize(static_cast<std::size_t>(packer.end() - packed.data()));
 }
 
 bool unpack_buckets(std::span<const std::byte> packed, std::vector<Bucket>& buckets) {

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "libreeb/base/byte_coding.h"
 #include "libreeb/graph/bucket.h"
 #include "libreeb/graph/direction.h"
 
@@ -19,18 +20,25 @@ namespace reeb {
 inline constexpr std::uint64_t kPackedBucketBytes = 44;
 inline constexpr std::uint64_t kLeastPackedBucketBytes = 14;
 
-// Appends a list, without loss: unpack_buckets() yields equal buckets.
+// The most bytes of a list of this length.
+inline constexpr std::size_t kMostBucketBytes = 2 * kMaxVarintBytes + 24 + 16;
+constexpr std::size_t most_packed_bytes(std::size_t count) { return kMaxVarintBytes + kMostBucketBytes * count; }
+
+// Writes a list, without loss: unpack_buckets() yields equal buckets.
 class BucketPacker {
  public:
-  // For a list of this length. REQUIRES: `packed` outlives this.
-  BucketPacker(std::uint64_t count, std::vector<std::byte>& packed);
+  // For a list of this length. REQUIRES: from `to` on, there is room for most_packed_bytes().
+  BucketPacker(std::uint64_t count, std::byte* to) : end_(count == 0 ? to : put_varint(to, count)) {}
   // The next bucket.
   void add(const Bucket& bucket);
+  // The end of what was written.
+  std::byte* end() const { return end_; }
 
  private:
-  std::vector<std::byte>& packed_;
+  std::byte* end_;
   std::int64_t last_ = 0;  // index
 };
+// Appends a list.
 void pack_buckets(std::span<const Bucket> buckets, std::vector<std::byte>& packed);
 
 // Appends the buckets of a list. False if the bytes are not a list; a length that they cannot hold allocates nothing.

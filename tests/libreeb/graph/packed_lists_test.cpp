@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <algorithm>
 #include <limits>
 
@@ -64,10 +65,10 @@ TEST(PackedBuckets, TheEndsAreFoundInTheWholeList) {
 
 // Without a look at what is left, this would take years.
 TEST(PackedBuckets, TheEndOfAListThatIsCutIsFoundAtOnce) {
-  std::vector<std::byte> packed;
-  BucketPacker packer(std::uint64_t{1} << 60, packed);
+  std::array<std::byte, most_packed_bytes(1)> bytes;
+  BucketPacker packer(std::uint64_t{1} << 60, bytes.data());
   packer.add({5, 1, {0.5, 1, 2}});
-  packed_end(packed, kUp);
+  packed_end({bytes.data(), packer.end()}, kUp);
 }
 
 TEST(PackedBuckets, SingleVerticesInSinglePrecisionTakeFourteenBytes) {
