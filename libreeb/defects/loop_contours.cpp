@@ -120,14 +120,17 @@ class Slabs {
   }
 
   LoopContour trace(const Contour& contour) {
-    LoopContour result{Crossings(patch_.edge_count(), 0), {}, contour.length, contour.end, 0};
+    LoopContour result{Crossings(patch_.edge_count(), 0), {}, contour.length, contour.end, 0, {}};
     join_level(contour.level);
     const std::uint32_t root = slice_.find(contour.edge);
+    std::vector<Point> points;
     for (const std::uint32_t e : slice_.used()) {
       if (slice_.find(e) != root) continue;
       result.crossings[e] = 1;
       result.gates.push_back(lower_end(e));
+      points.push_back(point_at(contour.level, e));
     }
+    result.place = curve_place(points);
     for (const std::uint32_t t : triangles_at(contour.level))
       for (const std::uint32_t e : patch_.edges_of(t))
         if (result.crossings[e] != 0) {
@@ -281,21 +284,27 @@ class Slabs {
     }
   }
 
-  void add_length(std::size_t level, std::uint32_t t, const std::vector<std::uint32_t>& contour_of) {
+  // Where the level crosses the edge.
+  Point point_at(std::size_t level, std::uint32_t e) const {
     const std::uint32_t rank = levels_[level] / 2;
     const double value = values_[heights_.by_rank[rank]] / 2 + values_[heights_.by_rank[rank + 1]] / 2;
+    const auto& edge = patch_.edge(e);
+    const double from = values_[edge.a], to = values_[edge.b];
+    const double part = from == to ? 0.5 : std::clamp((value - from) / (to - from), 0.0, 1.0);
+    Point point{};
+    for (std::size_t k = 0; k < 3; ++k)
+      point[k] = patch_.position(edge.a)[k] * (1 - part) + patch_.position(edge.b)[k] * part;
+    return point;
+  }
+
+  void add_length(std::size_t level, std::uint32_t t, const std::vector<std::uint32_t>& contour_of) {
     std::array<Point, 2> ends{};
     std::size_t count = 0;
     std::uint32_t root = kNone;
     for (const std::uint32_t e : patch_.edges_of(t)) {
       if (!crosses(e, level) || count == 2) continue;
       root = slice_.find(e);
-      const auto& edge = patch_.edge(e);
-      const double from = values_[edge.a], to = values_[edge.b];
-      const double part = from == to ? 0.5 : std::clamp((value - from) / (to - from), 0.0, 1.0);
-      for (std::size_t k = 0; k < 3; ++k)
-        ends[count][k] = patch_.position(edge.a)[k] * (1 - part) + patch_.position(edge.b)[k] * part;
-      ++count;
+      ends[count++] = point_at(level, e);
     }
     if (count == 2) contours_[contour_of[root]].length += distance(ends[0], ends[1]);
   }
@@ -465,6 +474,20 @@ std::vector<LoopContour> component_cuts(const Slabs& slabs, Components& componen
 }
 
 }  // namespace
+
+CurvePlace curve_place(std::span<const Point> points) {
+  CurvePlace place{{points[0], points[0]}, {}};
+  auto& [least, most] = place.box;
+  for (const Point& point : points)
+    for (std::size_t k = 0; k < 3; ++k) {
+      least[k] = std::min(least[k], point[k]);
+      most[k] = std::max(most[k], point[k]);
+      place.center[k] += point[k] / static_cast<double>(points.size());
+    }
+  // Rounding must not move the centre out of a flat box.
+  for (std::size_t k = 0; k < 3; ++k) place.center[k] = std::clamp(place.center[k], least[k], most[k]);
+  return place;
+}
 
 std::vector<LoopContour> loop_contours(const SurfacePatch& patch, std::span<const double> values,
                                        const LoopNodes& nodes) {

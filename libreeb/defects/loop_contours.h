@@ -4,6 +4,7 @@
 // from v to y within one component crosses that contour. Other contours there bound discs, or cut other loops.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -21,6 +22,14 @@ enum class ContourEnd {
   kRim,       // leaves the patch
 };
 
+// Where a curve is.
+struct CurvePlace {
+  std::array<Point, 2> box{};
+  Point center{};  // the mean of its points, within the box
+};
+// REQUIRES: at least one point.
+CurvePlace curve_place(std::span<const Point> points);
+
 // Every closed path that crosses it an odd number of times separates nothing.
 struct LoopContour {
   Crossings crossings;
@@ -28,6 +37,7 @@ struct LoopContour {
   double length = std::numeric_limits<double>::infinity();  // if it does not leave the patch
   ContourEnd end = ContourEnd::kCloses;
   std::uint32_t triangles = 0;  // that it crosses
+  CurvePlace place;             // if it does not leave the patch
 };
 
 // The nodes of a loop in a patch. In the Reeb graph as a whole, `lo_divides`: exactly two arcs lead up from lo;

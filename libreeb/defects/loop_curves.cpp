@@ -49,6 +49,9 @@ LoopCurve curve_along(const SurfacePatch& patch, ClosedPath path) {
   if (auto left = left_of(patch, path); left && !cuts_off(patch, path)) curve.crossings = std::move(*left);
   curve.triangles = triangles_passed(patch, path, curve.crossings);
   curve.length = curve.crossings.empty() ? path.length : tight_length(patch, path);
+  std::vector<Point> points;
+  for (const std::uint32_t v : path.vertices) points.push_back(patch.position(v));
+  curve.place = curve_place(points);
   curve.path = std::move(path);
   return curve;
 }
@@ -97,7 +100,10 @@ LoopCurves loop_curves(const SurfacePatch& patch, std::span<const double> values
             curves.contour = std::move(curve);
   if (first.length < curves.contour.length) {
     curves.contour.length = first.length;
-    if (!curves.contour.path.exists()) curves.contour.triangles = first.triangles;
+    if (!curves.contour.path.exists()) {
+      curves.contour.triangles = first.triangles;
+      curves.contour.place = first.place;
+    }
   }
   return curves;
 }

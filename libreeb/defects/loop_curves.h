@@ -28,6 +28,7 @@ struct LoopCurve {
   Crossings crossings;  // the edges to its left; empty if it meets a boundary, or no oriented manifold
   double length = std::numeric_limits<double>::infinity();  // that of the path pulled tight, or of a shorter contour
   std::uint32_t triangles = 0;                              // that the curve passes
+  CurvePlace place;                                         // of the path; of a contour that has none
   bool found() const { return length < std::numeric_limits<double>::infinity(); }
 };
 

@@ -360,20 +360,9 @@ FoundCurve in_mesh(const SurfacePatch& patch, const LoopCurve& curve) {
   found.triangles = curve.triangles;
   found.closed = !curve.crossings.empty();
   found.kind = kind_of(patch, curve, false);
-  if (!curve.path.exists()) return found;
+  found.place = curve.place;
   found.path.reserve(curve.path.vertices.size());
-  found.box = {patch.position(curve.path.vertices[0]), patch.position(curve.path.vertices[0])};
-  for (const std::uint32_t v : curve.path.vertices) {
-    found.path.push_back(patch.vertex(v));
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double x = patch.position(v)[k];
-      found.box[0][k] = std::min(found.box[0][k], x);
-      found.box[1][k] = std::max(found.box[1][k], x);
-      found.center[k] += x / static_cast<double>(curve.path.vertices.size());
-    }
-  }
-  // Rounding must not move the centre out of a flat box.
-  for (std::size_t k = 0; k < 3; ++k) found.center[k] = std::clamp(found.center[k], found.box[0][k], found.box[1][k]);
+  for (const std::uint32_t v : curve.path.vertices) found.path.push_back(patch.vertex(v));
   return found;
 }
 

@@ -23,8 +23,7 @@ namespace reeb::tools {
 struct FoundCurve {
   double length = std::numeric_limits<double>::infinity();
   std::vector<VertexId> path;  // empty if the curve is a contour that is not along edges
-  std::array<Point, 2> box{};
-  Point center{};
+  CurvePlace place;
   std::uint32_t triangles = 0;
   bool closed = false;  // on an oriented manifold, away from boundaries
   DefectKind kind = DefectKind::kUnclear;

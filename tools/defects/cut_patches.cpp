@@ -18,11 +18,10 @@ struct Place {
 
 Place place_of(const DefectRow& row, const PatchScale& scale) {
   Place place{row.curve.path, {}};
-  const double width = distance(row.curve.box[0], row.curve.box[1]);
+  const double width = distance(row.curve.place.box[0], row.curve.place.box[1]);
   if (place.seeds.empty()) place.seeds = {row.lo.key.vertex, row.hi.key.vertex};
-  if (!row.curve.path.empty()) {
-    place.balls.push_back({row.curve.center, 1.5 * width + 4 * scale.edge});
-  } else {
+  if (row.curve.found()) place.balls.push_back({row.curve.place.center, 1.5 * width + 4 * scale.edge});
+  if (row.curve.path.empty()) {
     for (const SettledNode* node : {&row.lo, &row.hi}) place.balls.push_back({node->position, 12 * scale.edge});
   }
   for (ooc::Ball& ball : place.balls) ball.radius = ball.radius < kMostRadius ? ball.radius : kMostRadius;

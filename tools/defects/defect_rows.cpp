@@ -46,9 +46,9 @@ std::vector<Candidate> candidates(const LoopList& list, const PatchScale& scale,
     const bool first = list.loops[loop].function == 0;
     if (curve.path.empty() || (!first && !curve.closed)) return;
     Candidate candidate{loop, &curve, &both, {}, 0, first, false, false};
-    for (std::size_t k = 0; k < 3; ++k) candidate.ball.center[k] = (curve.box[0][k] + curve.box[1][k]) / 2;
-    candidate.ball.radius =
-        0.75 * distance(curve.box[0], curve.box[1]) + 4 * curve.length / static_cast<double>(curve.path.size());
+    const auto& [least, most] = curve.place.box;
+    for (std::size_t k = 0; k < 3; ++k) candidate.ball.center[k] = (least[k] + most[k]) / 2;
+    candidate.ball.radius = 0.75 * distance(least, most) + 4 * curve.length / static_cast<double>(curve.path.size());
     candidate.testable = !scale.too_large(candidate.ball.radius);
     if (candidate.testable || first) result.push_back(candidate);
   };
@@ -224,13 +224,14 @@ DefectRow row_of(const LoopList& list, std::uint32_t number, const FoundCurves* 
     row.length_cycle = length(found->cycle);
     const FoundCurve& other = curve == &found->contour ? found->cycle : found->contour;
     if (length(other) < std::numeric_limits<double>::infinity()) row.other_path = other.path;
+    // A shorter contour that is not along edges, as at a boundary.
+    if (length(other) < curve->length && row.kind == DefectKind::kUnclear) {
+      row.curve = other;
+      row.other_path = curve->path;
+    }
     return row;
   }
-  for (std::size_t k = 0; k < 3; ++k) {
-    row.curve.box[0][k] = std::min(loop.lo.position[k], loop.hi.position[k]);
-    row.curve.box[1][k] = std::max(loop.lo.position[k], loop.hi.position[k]);
-    row.curve.center[k] = row.curve.box[0][k] / 2 + row.curve.box[1][k] / 2;
-  }
+  row.curve.place = curve_place(std::array{loop.lo.position, loop.hi.position});
   return row;
 }
 
@@ -275,8 +276,8 @@ void add_further(const ValuedMesh& mesh, const LoopList& list, const PatchScale&
       if (found.cycle.length > scale.longest()) break;
       if (inwards) turn(found.cycle);
       const auto nearest = std::ranges::min_element(loops, {}, [&](std::uint32_t i) {
-        return distance(list.loops[i].lo.position, found.cycle.center) +
-               distance(list.loops[i].hi.position, found.cycle.center);
+        return distance(list.loops[i].lo.position, found.cycle.place.center) +
+               distance(list.loops[i].hi.position, found.cycle.place.center);
       });
       listing.used[*nearest] = 1;
       listing.table.rows.push_back(row_of(list, *nearest, &found, &found.cycle));

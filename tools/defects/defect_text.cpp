@@ -36,9 +36,9 @@ nlohmann::ordered_json row_json(const Defects& defects, const RankedRow& ranked)
                                  {"persistence", row.persistence},
                                  {"persistence_percent", row.percent}};
   constexpr const char* kAxes[] = {"x", "y", "z"};
-  for (std::size_t k = 0; k < 3; ++k) json[std::string("center_") + kAxes[k]] = row.curve.center[k];
-  for (std::size_t k = 0; k < 3; ++k) json[std::string("min_") + kAxes[k]] = row.curve.box[0][k];
-  for (std::size_t k = 0; k < 3; ++k) json[std::string("max_") + kAxes[k]] = row.curve.box[1][k];
+  for (std::size_t k = 0; k < 3; ++k) json[std::string("center_") + kAxes[k]] = row.curve.place.center[k];
+  for (std::size_t k = 0; k < 3; ++k) json[std::string("min_") + kAxes[k]] = row.curve.place.box[0][k];
+  for (std::size_t k = 0; k < 3; ++k) json[std::string("max_") + kAxes[k]] = row.curve.place.box[1][k];
   json["kind"] = name_of(row.kind);
   json["length_contour"] = length_json(row.length_contour);
   json["length_cycle"] = length_json(row.length_cycle);
@@ -72,11 +72,11 @@ std::string defect_table(const Defects& defects, std::span<const RankedRow> rows
                         "persist.", "of range", "center", "f");
   for (const RankedRow& ranked : rows) {
     const DefectRow& row = *ranked.row;
-    text +=
-        fmt::format("{:>5}  {:<7} {:>10} {:>10} {:>10.4g} {:>8.3f} %  {:<34} {}\n", ranked.rank, name_of(row.kind),
-                    length_text(row.length_contour), length_text(row.length_cycle), row.persistence, row.percent,
-                    fmt::format("{:.6g} {:.6g} {:.6g}", row.curve.center[0], row.curve.center[1], row.curve.center[2]),
-                    printable(defects.functions[row.function]));
+    text += fmt::format("{:>5}  {:<7} {:>10} {:>10} {:>10.4g} {:>8.3f} %  {:<34} {}\n", ranked.rank, name_of(row.kind),
+                        length_text(row.length_contour), length_text(row.length_cycle), row.persistence, row.percent,
+                        fmt::format("{:.6g} {:.6g} {:.6g}", row.curve.place.center[0], row.curve.place.center[1],
+                                    row.curve.place.center[2]),
+                        printable(defects.functions[row.function]));
   }
   if (std::ranges::any_of(rows, [](const RankedRow& ranked) { return ranked.row->kind == DefectKind::kUnclear; }))
     text += "unclear: at a boundary, where the surface is not an oriented manifold, or no curve was found\n";
@@ -97,7 +97,7 @@ void write_defect_csv(const Defects& defects, std::span<const RankedRow> rows, s
     const DefectRow& row = *ranked.row;
     out << ranked.rank << ',' << row.lo.key.vertex.value() << ',' << row.hi.key.vertex.value() << ',' << row.persistence
         << ',' << row.percent;
-    for (const Point& point : {row.curve.center, row.curve.box[0], row.curve.box[1]})
+    for (const Point& point : {row.curve.place.center, row.curve.place.box[0], row.curve.place.box[1]})
       for (const double x : point) out << ',' << x;
     out << ',' << name_of(row.kind) << ',';
     write_length(out, row.length_contour);

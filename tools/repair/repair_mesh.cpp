@@ -174,7 +174,7 @@ class Plan {
         continue;
       }
       const DefectRow& row = *rows_[i].row;
-      jobs.push_back({row.curve.path, row.length(), row.curve.box, false});
+      jobs.push_back({row.curve.path, row.length(), row.curve.place.box, false});
     }
     return jobs;
   }

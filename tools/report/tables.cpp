@@ -128,7 +128,7 @@ std::string defects_table(const Defects& defects, std::size_t most, std::size_t 
     out += number(std::to_string(i + 1)) + text(name_of(row.kind)) + number(row.length_contour) +
            number(row.length_cycle) + number(row.persistence) + percent(row.percent) + count(row.curve.triangles) +
            number(std::to_string(row.lo.key.vertex.value())) + number(std::to_string(row.hi.key.vertex.value())) +
-           place(row.curve.center) + "</tr>\n";
+           place(row.curve.place.center) + "</tr>\n";
   }
   return out + kEnd;
 }

@@ -102,6 +102,38 @@ TEST(LoopCurves, AtABoundaryAreUnclear) {
   EXPECT_EQ(kind_of(closed, curve_along(closed, circle_at(15)), false), DefectKind::kHandle);
 }
 
+// Three tetrahedra in a ring, each of which shares one vertex with the next. No path along edges goes around a
+// tetrahedron there, but a contour does.
+TEST(LoopCurves, AContourWithoutAPathHasAPlace) {
+  PatchContent content;
+  content.positions = {{0, 0, 0}, {10, 0, 1}, {5, 8, 2}};
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const std::uint32_t from = i, to = (i + 1) % 3, p = 3 + 2 * i;
+    const Point a = content.positions[from], b = content.positions[to];
+    const Point middle = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
+    content.positions.push_back({middle[0] + 0.1, middle[1], middle[2] + 1});
+    content.positions.push_back({middle[0] - 0.1, middle[1] + 1, middle[2]});
+    for (const auto& t : {std::array{from, to, p}, {to, from, p + 1}, {p, to, p + 1}, {from, p, p + 1}})
+      content.triangles.push_back(t);
+  }
+  std::vector<double> values;
+  for (std::uint32_t i = 0; i < content.positions.size(); ++i) {
+    content.vertices.emplace_back(i);
+    content.whole.push_back(1);
+    values.push_back(content.positions[i][0]);
+  }
+  const SurfacePatch patch(content);
+  const LoopCurve contour = loop_curves(patch, values, {0, 1, true, true}).contour;
+  ASSERT_TRUE(contour.found());
+  ASSERT_FALSE(contour.path.exists());
+  const auto& [box, center] = contour.place;
+  EXPECT_GT(distance(box[0], box[1]), 0);
+  EXPECT_LE(distance(box[0], box[1]), contour.length);
+  EXPECT_NEAR(box[0][0], box[1][0], 1e-12) << "it is at one height";
+  EXPECT_TRUE(0 < box[0][0] && box[0][0] < 10);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_TRUE(box[0][k] <= center[k] && center[k] <= box[1][k]);
+}
+
 TEST(LoopCurves, BoundTogetherIfOneIsBesideTheOther) {
   // Without a ring of triangles, which the patch does not have: vertices there are not whole.
   PatchContent content = torus();
