@@ -73,9 +73,7 @@ class ImageReader final : public GridReader {
 
   std::vector<std::string> warnings() const override {
     std::vector<std::string> all = image_.warnings;
-    if (stream_->rounded() != 0)
-      all.push_back(count_of(stream_->rounded(), "value") + " beyond 2^53 " +
-                    (stream_->rounded() == 1 ? "was" : "were") + " rounded to the nearest double");
+    if (stream_->rounded() != 0) all.push_back(rounded_note(stream_->rounded()));
     if (trailing_) all.push_back("data after the last value were ignored");
     return all;
   }

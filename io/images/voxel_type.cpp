@@ -2,21 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <type_traits>
+
+#include "libreeb/base/count_text.h"
 
 namespace reeb::io {
 namespace {
 
 constexpr std::array<std::string_view, 10> kNames = {"i8",  "u8",  "i16", "u16", "i32",
                                                      "u32", "i64", "u64", "f32", "f64"};
-
-// Whether more than 53 binary digits are left of an integer without its last zeros.
-template <class Integer>
-bool is_rounded(Integer value) {
-  std::uint64_t size = static_cast<std::uint64_t>(value);
-  if (value < Integer{0}) size = ~size + 1;
-  return size != 0 && (size >> std::countr_zero(size)) >> 53 != 0;
-}
 
 }  // namespace
 
@@ -35,7 +28,7 @@ std::uint64_t to_doubles(ScalarType type, bool big_endian, const char* bytes, st
     const auto convert = [&](bool swap) {
       for (std::size_t i = 0; i < count; ++i) {
         const auto value = load_scalar<Scalar>(bytes + i * sizeof(Scalar), swap);
-        if constexpr (std::is_integral_v<Scalar> && sizeof(Scalar) == 8) rounded += is_rounded(value) ? 1u : 0u;
+        rounded += is_rounded(value) ? 1u : 0u;
         values[i] = static_cast<double>(value) + 0.0;
       }
     };
@@ -46,6 +39,11 @@ std::uint64_t to_doubles(ScalarType type, bool big_endian, const char* bytes, st
       convert(false);
     return rounded;
   });
+}
+
+std::string rounded_note(std::uint64_t rounded) {
+  return count_of(rounded, "value") + " beyond 2^53 " + (rounded == 1 ? "was" : "were") +
+         " rounded to the nearest double";
 }
 
 }  // namespace reeb::io

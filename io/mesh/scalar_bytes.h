@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 namespace reeb::io {
@@ -30,6 +31,17 @@ T load_scalar(const char* bytes, bool swap) {
   for (std::size_t i = 0; i < sizeof(T); ++i) turned[i] = bytes[sizeof(T) - 1 - i];
   std::memcpy(&value, turned, sizeof value);
   return value;
+}
+
+// Whether no double has this value: more than 53 binary digits are left of an integer without its last zeros.
+template <class Scalar>
+bool is_rounded(Scalar value) {
+  if constexpr (std::is_integral_v<Scalar> && sizeof(Scalar) == 8) {
+    auto size = static_cast<std::uint64_t>(value);
+    if (value < Scalar{0}) size = ~size + 1;
+    return size != 0 && (size >> std::countr_zero(size)) >> 53 != 0;
+  }
+  return false;
 }
 
 // What a format calls a type.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
+#include "io/images/voxel_type.h"
 #include "tools/python/strided_array.h"
 
 namespace reeb::python {
@@ -23,15 +25,18 @@ class Reader final : public GridReader {
       const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(width - i, values.size() - filled));
       const char* item = at(next_);
       io::with_type(grid_.type, [&](auto zero) {
-        for (std::size_t n = 0; n < count; ++n, item += grid_.stride[0])
-          values[filled + n] = static_cast<double>(io::load_scalar<decltype(zero)>(item, false)) + 0.0;
+        for (std::size_t n = 0; n < count; ++n, item += grid_.stride[0]) {
+          const auto value = io::load_scalar<decltype(zero)>(item, false);
+          rounded_ += io::is_rounded(value) ? 1u : 0u;
+          values[filled + n] = static_cast<double>(value) + 0.0;
+        }
       });
       filled += count;
       next_ += count;
     }
     return filled;
   }
-  void rewind() override { next_ = 0; }
+  void rewind() override { next_ = rounded_ = 0; }
   GridPlace place_of(std::uint64_t vertex) const override {
     const auto [i, j, k] = indices(vertex);
     std::string position = std::to_string(j) + ", " + std::to_string(i);
@@ -39,6 +44,10 @@ class Reader final : public GridReader {
     return {kNoFile, place_in("image", position)};
   }
   std::uint64_t bytes_read() const override { return next_ * io::byte_size(grid_.type); }
+  std::vector<std::string> warnings() const override {
+    if (rounded_ == 0) return {};
+    return {io::rounded_note(rounded_)};
+  }
 
  private:
   std::array<std::uint64_t, 3> indices(std::uint64_t vertex) const {
@@ -54,6 +63,7 @@ class Reader final : public GridReader {
 
   ArrayGrid grid_;
   std::uint64_t next_ = 0;
+  std::uint64_t rounded_ = 0;  // values before next_
 };
 
 }  // namespace

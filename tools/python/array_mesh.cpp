@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "io/images/voxel_type.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/port/deciding_triangles.h"
@@ -33,6 +34,13 @@ std::vector<Column> choose_columns(const ArrayMesh& mesh, const ReadOptions& opt
     add(*found);
   }
   return columns;
+}
+
+std::vector<std::string> rounding_notes(std::span<const Column> columns) {
+  std::uint64_t rounded = 0;
+  for (const Column& column : columns) rounded += column.array.rounded(column.index);
+  if (rounded == 0) return {};
+  return {io::rounded_note(rounded)};
 }
 
 // values[i] = that of vertex id(i).
@@ -190,6 +198,7 @@ class IndexedArrays final : public IndexedMesh {
   }
   std::uint64_t bytes_read() const override { return rows_.bytes_read(); }
   std::uint64_t bytes_total() const override { return total_bytes(*mesh_); }
+  std::vector<std::string> warnings() const override { return rounding_notes(columns_); }
 
  private:
   void add_triangles(std::size_t width, std::vector<VertexId>& corners) {
@@ -251,6 +260,7 @@ class ArrayReader final : public MeshReader {
   const MeshInfo& info() const override { return info_; }
   std::unique_ptr<IndexedMesh> indexed() const override { return std::make_unique<IndexedArrays>(mesh_, columns_); }
   std::uint64_t bytes_read() const override { return rows_.bytes_read(); }
+  std::vector<std::string> warnings() const override { return rounding_notes(columns_); }
   bool read(MeshBatch& batch) override {
     batch.clear();
     batch.first_vertex = VertexId(next_);

@@ -27,6 +27,17 @@ struct StridedArray {
   const char* at(std::uint64_t row, std::uint64_t column) const {
     return data + static_cast<std::int64_t>(row) * stride[0] + static_cast<std::int64_t>(column) * stride[1];
   }
+
+  // How many values of a column have to be rounded to doubles.
+  std::uint64_t rounded(std::uint64_t column) const {
+    if (type != io::ScalarType::kInt64 && type != io::ScalarType::kUint64) return 0;
+    return io::with_type(type, [&](auto zero) {
+      std::uint64_t count = 0;
+      for (std::uint64_t row = 0; row < size[0]; ++row)
+        count += io::is_rounded(io::load_scalar<decltype(zero)>(at(row, column), false)) ? 1u : 0u;
+      return count;
+    });
+  }
 };
 
 }  // namespace reeb::python

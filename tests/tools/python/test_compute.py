@@ -292,3 +292,18 @@ def test_a_colour_image_gives_a_note():
     image = np.random.default_rng(4).random((9, 10, 3))
     assert any("colour image" in note for note in reeb.compute(image).result["notes"])
     assert reeb.compute(image[..., 0]).result["notes"] == []
+
+
+# Of three values, two are one double.
+def test_rounded_integers_give_a_note():
+    values = np.array([2**53 + 1, 2**53, 2**53 + 1])
+    note = ["2 values beyond 2^53 were rounded to the nearest double"]
+    one = ["1 value beyond 2^53 was rounded to the nearest double"]
+    for type_ in (np.int64, np.uint64):
+        on_arcs = reeb.compute([[0, 0], [1, 0], [2, 0]], [[0, 1], [1, 2]], values.astype(type_))
+        assert on_arcs.result["notes"] == note
+        for nodata in (None, "skip"):
+            assert reeb.compute(values.astype(type_).reshape(3, 1), f="value", nodata=nodata).result["notes"] == note
+    vertices = np.array([[0, 0, 2**60 + 1], [1, 0, 0], [2, 0, 1]])
+    assert reeb.compute(vertices, [[0, 1, 2]], f="x").result["notes"] == one
+    assert reeb.compute(values.reshape(3, 1) // 2, f="value").result["notes"] == []
