@@ -25,7 +25,9 @@ std::vector<std::string> property_names(const StreamHeader& header) {
 class StreamMeshReader : public MeshReader {
  public:
   StreamMeshReader(std::unique_ptr<EventReader> reader, const ReadOptions& options, std::uint64_t file_bytes)
-      : reader_(in_pre_order(std::move(reader))), batch_events_(std::max<std::size_t>(1, options.batch_events)) {
+      : reader_(in_pre_order(std::move(reader))),
+        batch_events_(std::max<std::size_t>(1, options.batch_events)),
+        zero_(options.signed_zeros ? -0.0 : 0.0) {
     const StreamHeader& header = reader_->header();
     info_.format = header.format;
     info_.property_names = property_names(header);
@@ -93,13 +95,15 @@ class StreamMeshReader : public MeshReader {
     return event;
   }
 
+  double number(float value) const { return static_cast<double>(value) + zero_; }
+
   void append(const StreamEvent& event, MeshBatch& batch) {
     switch (event.kind) {
       case EventKind::kVertex:
-        for (std::size_t k = 0; k < 3; ++k) batch.coordinates[k].push_back(static_cast<double>(event.floats[k]));
+        for (std::size_t k = 0; k < 3; ++k) batch.coordinates[k].push_back(number(event.floats[k]));
         for (std::size_t k = 0; k < columns_.size(); ++k)
           batch.properties[k].push_back(columns_[k].integer ? static_cast<double>(event.ints[columns_[k].index])
-                                                            : static_cast<double>(event.floats[columns_[k].index]));
+                                                            : number(event.floats[columns_[k].index]));
         ++batch.vertex_count;
         ++vertices_;
         return;
@@ -118,6 +122,7 @@ class StreamMeshReader : public MeshReader {
 
   std::unique_ptr<EventReader> reader_;
   std::size_t batch_events_;
+  double zero_;  // is added to each number: 0.0 makes 0.0 of -0.0, and -0.0 changes nothing
   MeshInfo info_;
   std::vector<Column> columns_;
   std::uint64_t vertices_ = 0, finalized_ = 0;

@@ -104,7 +104,7 @@ struct ReadOptions {
   // temporary files are by default.
   std::string temp_folder{};
   bool value_of_image = false;  // if the mesh is an image, and no property is named: deliver "value"
-  bool signed_zeros = false;    // PLY, OBJ, OFF: deliver -0.0 where the file has it; else it becomes 0.0
+  bool signed_zeros = false;    // PLY, OBJ, OFF, streams: deliver -0.0 where the file has it; else it becomes 0.0
   bool names_losses = false;    // OBJ: warnings() name what the file has beside vertices and simplices
 };
 
