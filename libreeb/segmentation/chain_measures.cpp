@@ -5,7 +5,6 @@
 #include <limits>
 
 namespace reeb {
-
 void LinearSum::Sum::add(double value) {
   const double sum = high + value, part = sum - high;
   low += (high - (sum - part)) + (value - part);
@@ -18,6 +17,13 @@ void LinearSum::add(double slope, double origin) {
   slope_.add(slope);
   offset_.add(-offset);
   offset_.add(-std::fma(slope, origin, -offset));
+  greatest_slope_ = std::max(greatest_slope_, std::abs(slope_.high));
+  greatest_offset_ = std::max(greatest_offset_, std::abs(offset_.high));
+}
+
+double LinearSum::error(double level) const {
+  constexpr double kRounding = 0x1p-100;
+  return kRounding * greatest_slope_ * std::abs(level) + kRounding * greatest_offset_;
 }
 
 double LinearSum::at(double level) const {
@@ -29,13 +35,25 @@ double LinearSum::at(double level) const {
   return std::max(0.0, sum.high);
 }
 
+ChainMeasures::ChainMeasures(const ReebGraph& graph, const ArcChains& chains, std::vector<ArcMeasures>& arcs)
+    : graph_(graph), chains_(chains), arcs_(arcs) {
+  double greatest = 0;
+  for (const SweepKey& node : graph.nodes) greatest = std::max(greatest, std::abs(node.value));
+  if (greatest == 0) return;
+  constexpr int kExponent = 500;
+  const int exponent = kExponent - std::ilogb(greatest);
+  scale_ = {std::ldexp(1, exponent / 2), std::ldexp(1, exponent - exponent / 2)};
+}
+
 void ChainMeasures::add(const CrossingTriangle& triangle) {
   while (chain_ < triangle.chain) end_chain();
   if (!started_) start_chain();
-  advance(triangle.from);
-  const auto [chain, from, to, lo, mid, hi, length, width] = triangle;
-  add_part(std::max(from, lo), std::min(to, mid), length, width, mid - lo, lo);
-  add_part(std::max(from, mid), std::min(to, hi), -length, -width, hi - mid, hi);
+  advance(scaled(triangle.from));
+  const double from = scaled(triangle.from), to = scaled(triangle.to);
+  const double lo = scaled(triangle.lo), mid = scaled(triangle.mid), hi = scaled(triangle.hi);
+  longest_ = std::max(longest_, triangle.length);
+  add_part(std::max(from, lo), std::min(to, mid), triangle.length / (mid - lo), lo);
+  add_part(std::max(from, mid), std::min(to, hi), triangle.length / (mid - hi), hi);
 }
 
 void ChainMeasures::finish() {
@@ -47,21 +65,22 @@ void ChainMeasures::start_chain() {
   at_ = 0;
   changes_.clear();
   open_ = 0;
-  length_ = width_ = {};
-  level_ = graph_.nodes[graph_.lo[chains_.arcs(chain_)[0].value()].value()].value;
+  length_ = {};
+  longest_ = 0;
+  level_ = level_of(graph_.lo[chains_.arcs(chain_)[0].value()]);
   start_arc();
 }
 
 void ChainMeasures::end_chain() {
   if (!started_) start_chain();
   const auto arcs = chains_.arcs(chain_);
-  advance(graph_.nodes[graph_.hi[arcs.back().value()].value()].value);
+  advance(level_of(graph_.hi[arcs.back().value()]));
   started_ = false;
   ++chain_;
 }
 
 void ChainMeasures::start_arc() {
-  top_ = graph_.nodes[graph_.hi[chains_.arcs(chain_)[at_].value()].value()].value;
+  top_ = level_of(graph_.hi[chains_.arcs(chain_)[at_].value()]);
   shortest_ = std::numeric_limits<double>::infinity();
 }
 
@@ -70,12 +89,11 @@ void ChainMeasures::end_arc() {
   arc.shortest_contour = std::isinf(shortest_) ? std::numeric_limits<double>::quiet_NaN() : shortest_;
 }
 
-void ChainMeasures::add_part(double from, double to, double length, double width, double height, double origin) {
-  const double length_slope = length / height, width_slope = width / height;
-  // Where a slope is no number, the part is lower than any difference of levels that could show it.
-  if (!(from < to) || !std::isfinite(length_slope) || !std::isfinite(width_slope)) return;
+void ChainMeasures::add_part(double from, double to, double slope, double origin) {
+  // Where the slope is no number, the part is lower than any difference of levels that could show it.
+  if (!(from < to) || !std::isfinite(slope)) return;
   for (const bool begins : {true, false}) {
-    changes_.push_back({begins ? from : to, origin, length_slope, width_slope, begins});
+    changes_.push_back({begins ? from : to, from, origin, slope, begins});
     std::push_heap(changes_.begin(), changes_.end(), later);
   }
 }
@@ -101,28 +119,33 @@ void ChainMeasures::advance(double level) {
   see(level);
 }
 
-// Length and width are linear from level_ to here.
+// The length is linear from level_ to here.
 void ChainMeasures::see(double level) {
   if (level <= level_) return;
-  if (at_ < chains_.arcs(chain_).size()) {
-    const auto here = [&](const LinearSum& sum, double at) { return open_ == 0 ? 0 : sum.at(at); };
-    shortest_ = std::min({shortest_, here(length_, level_), here(length_, level)});
-    arcs_[chains_.arcs(chain_)[at_].value()].area +=
-        (here(width_, level_) / 2 + here(width_, level) / 2) * (level - level_);
-  }
+  if (at_ < chains_.arcs(chain_).size()) shortest_ = std::min({shortest_, length_at(level_), length_at(level)});
   level_ = level;
+}
+
+// REQUIRES: all changes up to level_ were applied.
+double ChainMeasures::length_at(double level) {
+  constexpr double kExact = 0x1p-40;
+  if (open_ == 0) return 0;
+  if (length_.error(level) > kExact * longest_) {
+    length_ = {};
+    for (const Change& end : changes_)
+      if (!end.begins && end.from <= level_) length_.add(end.slope, end.origin);
+  }
+  return length_.at(level);
 }
 
 void ChainMeasures::apply(const Change& change) {
   if (change.begins) {
     ++open_;
-    length_.add(change.length_slope, change.origin);
-    width_.add(change.width_slope, change.origin);
+    length_.add(change.slope, change.origin);
   } else if (--open_ == 0) {
-    length_ = width_ = {};
+    length_ = {};
   } else {
-    length_.remove(change.length_slope, change.origin);
-    width_.remove(change.width_slope, change.origin);
+    length_.remove(change.slope, change.origin);
   }
 }
 

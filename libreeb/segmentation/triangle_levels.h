@@ -18,7 +18,7 @@ class TriangleLevels {
   TriangleLevels(const ValuedPoint& lo, const ValuedPoint& mid, const ValuedPoint& hi)
       : lo_(lo.value), mid_(mid.value), hi_(hi.value) {
     std::array<double, 3> u{}, v{}, across{};
-    const double share = hi_ > lo_ ? (mid_ - lo_) / (hi_ - lo_) : 0;
+    const double share = hi_ > lo_ ? part(mid_, lo_, hi_) : 0;
     for (std::size_t k = 0; k < 3; ++k) {
       u[k] = mid.at[k] - lo.at[k];
       v[k] = hi.at[k] - lo.at[k];
@@ -33,15 +33,19 @@ class TriangleLevels {
   double area_below(double level) const {
     if (level <= lo_) return 0;
     if (level >= hi_) return area_;
-    if (level <= mid_) return area_ * ((level - lo_) / (mid_ - lo_)) * ((level - lo_) / (hi_ - lo_));
-    return area_ * (1 - ((hi_ - level) / (hi_ - mid_)) * ((hi_ - level) / (hi_ - lo_)));
+    if (level <= mid_) return area_ * part(level, lo_, mid_) * part(level, lo_, hi_);
+    return area_ * (1 - part(level, hi_, mid_) * part(level, hi_, lo_));
   }
-  // The length of the level, and the area per unit of the function, grow from 0 to these at the middle corner, and
-  // shrink to 0.
+  // The length of the level grows from 0 to this at the middle corner, and shrinks to 0.
   double longest_level() const { return length_; }
-  double widest_level() const { return area_ / (hi_ - lo_) * 2; }
 
  private:
+  // How far a level is on the way between two others, whose difference may be beyond the doubles.
+  static double part(double level, double from, double to) {
+    const double all = to - from;
+    return std::isfinite(all) ? (level - from) / all : (level / 2 - from / 2) / (to / 2 - from / 2);
+  }
+
   double lo_, mid_, hi_;
   double area_ = 0, length_ = 0;
 };

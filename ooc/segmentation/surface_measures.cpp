@@ -135,13 +135,14 @@ void SurfaceMeasures::add_side(const Corner& lo, const Corner& hi) {
 
 void SurfaceMeasures::add_piece(std::uint32_t arc, double from, double to) {
   if (!(from < to)) return;
+  measured_.arcs[arc].area += triangle_->area_below(to) - triangle_->area_below(from);
   const std::uint32_t chain = chains_.chain_of(ArcId(arc));
   if (part_.from < part_.to && part_.chain == chain && part_.to == from) {
     part_.to = to;
     return;
   }
   end_part();
-  part_ = {chain, from, to, levels_[0], levels_[1], levels_[2], triangle_->longest_level(), triangle_->widest_level()};
+  part_ = {chain, from, to, levels_[0], levels_[1], levels_[2], triangle_->longest_level()};
 }
 
 void SurfaceMeasures::end_part() {
