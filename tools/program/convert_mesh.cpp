@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 #include "io/events/pre_order.h"
@@ -20,6 +21,7 @@
 #include "io/streaming/create_stream.h"
 #include "io/streaming/open_stream.h"
 #include "io/streaming/stream_mesh_reader.h"
+#include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 #include "ooc/chunks/reader_memory.h"
@@ -229,6 +231,7 @@ class Conversion {
 
   bool sorts_order() const { return options_.order.kind != TriangleOrder::Kind::kKeep; }
   Lines write_sorted();
+  Lines notes_on_other_simplices(const SimplexCounts& counts) const;
   std::unique_ptr<IndexedMesh> spool(ooc::Workspace& space, Lines& notes);
   std::unique_ptr<IndexedMesh> sorted(std::unique_ptr<IndexedMesh> mesh, ooc::Workspace& space) const;
 
@@ -258,7 +261,22 @@ Lines Conversion::write_sorted() {
   writer->close();
   if (in_place && watched.non_finite_values() != 0)
     notes.push_back(io::note_on_non_finite_values(watched.non_finite_values()));
+  append(notes, notes_on_other_simplices(mesh->simplex_counts()));
   append(notes, writer->warnings());
+  return notes;
+}
+
+// Only triangles are put in another order. Which simplices the output could hold, but are triangles there.
+Lines Conversion::notes_on_other_simplices(const SimplexCounts& counts) const {
+  const std::uint64_t lower = counts[0] + counts[1],
+                      higher = std::accumulate(counts.begin() + 3, counts.end(), std::uint64_t{0});
+  Lines notes;
+  if (lower != 0 && format_ == io::StreamFormat::kNone)
+    notes.push_back("points and edges (" + with_commas(lower) + ") are written as triangles with repeated corners");
+  if (higher != 0 && io::has_tetrahedra(options_.output) && !has_volume_image())
+    notes.push_back("simplices of more than three corners (" + with_commas(higher) +
+                    ") are written as their triangles");
+  if (!notes.empty()) notes.back() += "; without --finalize and --order they stay what they are";
   return notes;
 }
 

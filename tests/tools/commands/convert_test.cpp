@@ -216,6 +216,28 @@ TEST_F(Convert, VolumesKeepTheirGraphsAndTheValuesOfTheirVertices) {
   }
 }
 
+TEST_F(Convert, SaysThatOtherSimplicesBecomeTriangles) {
+  write("mixed.cx", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 2 2 2\nv 3 3 3\ns 0 1 2 3\ns 4\ns 3 5\n");
+  const std::string low = "points and edges (2) are written as triangles with repeated corners",
+                    high = "simplices of more than three corners (1) are written as their triangles";
+  struct Case {
+    std::string output;
+    bool says_low, says_high;
+  };
+  for (const auto& [output, says_low, says_high] :
+       {Case{"o.cx", true, true}, {"o.ply", true, false}, {"o.events.txt", false, true}, {"o.smb", false, false}})
+    for (const std::string option : {"", "--finalize", "--order hilbert"}) {
+      SCOPED_TRACE(output + ' ' + option);
+      const Outcome done = reeb("convert mixed.cx " + output + " --force " + option);
+      EXPECT_EQ(done.exit_code, 0) << done.error;
+      EXPECT_EQ(done.error.find(low) != std::string::npos, says_low && !option.empty()) << done.error;
+      EXPECT_EQ(done.error.find(high) != std::string::npos, says_high && !option.empty()) << done.error;
+      if (option.empty() && output == "o.cx") {
+        EXPECT_EQ(info_of(output)["simplices"], info_of("mixed.cx")["simplices"]);
+      }
+    }
+}
+
 TEST_F(Convert, EveryOrderIsACompactStreamOfTheSameTriangles) {
   expect_success("generate scan --triangles 20000 --order random --seed 5 -o scan.ply");
   const EventList input = events_of("scan.ply");
