@@ -81,6 +81,7 @@ void check_fully(const ooc::ReebFile& file, const FullCheckOptions& options) {
   run.graph_only = header.flags.graph_only;
   run.buckets = 0;
   run.denoise = header.denoise_threshold;
+  run.keeps_checkpoints = false;
   run.interrupted = options.interrupted;
   compute(options.mesh, header.function, output, run);
   const ooc::ReebFile again(output);

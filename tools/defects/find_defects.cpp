@@ -35,7 +35,7 @@ std::vector<std::string> compute_graphs(const FindDefectsOptions& options, const
   run.buckets = 0;
   run.denoise = 1;
   run.denoise_is_share = true;
-  run.checkpoint_seconds = 1e9;
+  run.keeps_checkpoints = false;
   run.progress = options.computing;
   run.interrupted = options.mesh.interrupted;
   const std::vector<ComputeResult> results = compute(options.mesh.path, functions, files, run);

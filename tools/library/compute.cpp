@@ -53,6 +53,7 @@ std::vector<ComputeResult> compute_all(const Mesh& mesh_source, const std::strin
                                  options.replace ? io::Existing::kReplace : io::Existing::kKeep);
   } else {
     mesh = input.take_mesh();
+    mesh.may_resume &= options.keeps_checkpoints;
   }
   auto results = ooc::compute(std::move(mesh), pointers, outputs, run_options(options));
   for (std::size_t i = 0; i < results.size(); ++i)

@@ -42,6 +42,7 @@ struct ComputeOptions {
   std::uint64_t snapshot_every = 0;  // write the graph so far after every N simplices; 0: never
   // Continue an interrupted run with the same mesh, functions and first output.
   bool resume = false;
+  bool keeps_checkpoints = true;  // so that an interrupted run can be resumed
   double checkpoint_seconds = 2;  // between two checkpoints, at least; 0: after every chunk
   // Called by one thread at a time, not always the same. They may throw: that ends the run.
   std::function<void(const MeshInfo&)> opened{};           // once, before the first triangle
