@@ -11,7 +11,7 @@ void require_equal(const std::string& file, const char* what, std::uint64_t in_f
   throw Error(ErrorKind::kBadInput,
               "it is not the graph of this mesh: it says " + with_commas(in_file) + " " + what + ", the mesh has " +
                   with_commas(in_mesh),
-              "name the mesh that the file was computed from, or compute the file again")
+              "name the mesh that the file was computed from; an image needs --nodata skip if that run had it")
       .at(file);
 }
 

@@ -17,6 +17,7 @@
 #include "libreeb/base/error.h"
 #include "libreeb/base/printable.h"
 #include "ooc/reeb_file/reeb_file.h"
+#include "tools/arguments/image_options.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/library/run_files.h"
@@ -37,6 +38,7 @@ struct ExtractOptions {
   std::string file, output = io::kStandardOutput, format, mesh, temp_folder;
   LevelChoice level;
   std::optional<std::uint64_t> memory_bytes;
+  io::ImageOptions image;  // of the mesh
   unsigned threads = 0;
   bool on_surface = false, force = false, quiet = false;
 };
@@ -113,6 +115,9 @@ void write_tables(const io::GraphView& view, const std::string& nodes, const std
 void extract(const ExtractOptions& options) {
   const io::GraphFormat format = choose_format(options);
   if (!options.mesh.empty()) require_measured_format(format);
+  if (options.mesh.empty() && (options.image.is_raw() || options.image.skip_nodata))
+    throw Error(ErrorKind::kUsage, "--grid, --type, --spacing, --skip and --nodata say how a mesh is read",
+                "name it with --mesh MESH, or leave them out");
   // Errors in the command line are reported before the file is read.
   if (options.on_surface && !io::has_lines(format))
     throw Error(ErrorKind::kUsage, "--on-surface is for formats with lines in space",
@@ -124,7 +129,7 @@ void extract(const ExtractOptions& options) {
   if (options.mesh.empty())
     files.add_input(options.file, "the .reeb file");
   else
-    add_segmentation_inputs(options.mesh, {}, {}, file, files);
+    add_segmentation_inputs(options.mesh, {}, options.image, file, files);
   const std::vector<std::string> outputs = output_files(format, options.output);
   for (const std::string& output : outputs)
     files.add_output(output, outputs.size() > 1 ? "an output" : "the output", existing_outputs(options.force));
@@ -145,6 +150,7 @@ void extract(const ExtractOptions& options) {
     measured = measure_level(
         file, level,
         {.mesh = options.mesh,
+         .image = options.image,
          .temp_folder = options.temp_folder.empty() ? io::TempDir::default_folder(beside) : options.temp_folder,
          .threads = options.threads,
          .quiet = options.quiet});
@@ -184,6 +190,7 @@ void add_extract(Program& app) {
                                 "The mesh that the file was computed from. Measures the part of it on each arc: "
                                 "vertices, mean of the function, area, shortest contour (json, vtp, vtu)")
                     .type_name("MESH");
+  add_image_options(command, options->image);
   add_threads(command, options->threads, "With --mesh: number of threads, 1 to 1024 (default: all)").needs(mesh);
   add_temp_dir(command, options->temp_folder,
                "With --mesh: folder for temporary files (default: $TMPDIR, or the folder of the output)")

@@ -74,6 +74,7 @@ ArcBuckets in_order(const ArcBuckets& buckets, std::span<const std::size_t> orde
 ooc::MeasuredArcs measure_level(const ooc::ReebFile& file, ooc::Level& level, const MeasureRequest& request) {
   InputOptions opening;
   opening.temp_dir = request.temp_folder;
+  opening.image = request.image;
   RunInput input(request.mesh, std::span(&file.header().function, 1), opening);
   if (!input.can_read_again())
     throw Error(ErrorKind::kBadInput, "the mesh must be read twice, and this input can be read once",

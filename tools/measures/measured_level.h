@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/formats/open_mesh.h"
 #include "libreeb/graph/arc_measures.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "ooc/run/segment.h"
@@ -13,6 +14,7 @@ namespace reeb::tools {
 
 struct MeasureRequest {
   std::string mesh;
+  io::ImageOptions image{};
   std::string temp_folder;  // not empty
   unsigned threads = 0;     // 0: all
   bool quiet = false;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -52,6 +53,7 @@ struct Checker {
 std::unique_ptr<MeshReader> open_mesh_bytes(const Sample& sample, const std::string& bytes, std::size_t batch_events) {
   ReadOptions options;
   options.batch_events = batch_events;
+  options.signed_zeros = true;
   return make_stream_mesh_reader(open_bytes(bytes, sample.file), options, bytes.size());
 }
 
@@ -120,6 +122,19 @@ TEST(StreamMeshReader, APostOrderCellComesWithItsLastVertexAndThenTheFinalizatio
   const std::string bytes = "f 1 3 2\nf 3 2 2\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\n";
   const auto reader = make_stream_mesh_reader(open_bytes(bytes), {.properties = {}, .batch_events = 1});
   EXPECT_EQ(events_of(*reader), "v 0 0 0 0\nv 1 1 0 0\nv 2 0 1 0\nt 0 2 1\nf 0\nt 2 1 1\nf 2\nf 1\nv 3 5 5 5\nf 3\n");
+}
+
+// As in all other formats, or the positions of nodes would depend on the format.
+TEST(StreamMeshReader, DeliversMinusZeroOnlyIfAsked) {
+  const std::string bytes = "v -0 1 0\nv 1 0 1\nv 0 1 2\nf 1 2 3\n";
+  for (const bool asked : {false, true}) {
+    ReadOptions options;
+    options.signed_zeros = asked;
+    const auto reader = make_stream_mesh_reader(open_bytes(bytes), options);
+    MeshBatch batch;
+    ASSERT_TRUE(reader->read(batch));
+    EXPECT_EQ(std::signbit(batch.coordinates[0][0]), asked);
+  }
 }
 
 TEST(StreamMeshReader, ScalarsAreProperties) {

@@ -235,6 +235,27 @@ TEST_F(Image, IsDescribedByItsOptions) {
   EXPECT_EQ(plane["dimension"], 2);
 }
 
+TEST_F(Image, IsMeasuredWithItsOptions) {
+  Random random(4);
+  std::vector<float> values(6 * 5);
+  for (float& value : values) value = static_cast<float>(random.unit());
+  values[7] = values[20] = std::numeric_limits<float>::quiet_NaN();
+  write_raw("v.raw", values);
+  const std::vector<std::string> options = {"--grid", "6x5", "--type", "f32le", "--nodata", "skip"};
+  graph_of("v.raw", options);
+  std::vector<std::string> extract = {"extract", "out.reeb", "--mesh", "v.raw", "--format", "json", "-o", "a.json"};
+  extract.insert(extract.end(), options.begin(), options.end());
+  expect_success(reeb(extract));
+  // The 40 triangles but the six at each vertex that is left out.
+  double area = 0;
+  const nlohmann::json graph = nlohmann::json::parse(file("a.json"));
+  for (const auto& arc : graph["arcs"]) area += arc["area"].get<double>();
+  EXPECT_NEAR(area, (40 - 2 * 6) / 2.0, 1e-9);
+
+  expect_error(reeb({"extract", "out.reeb", "--grid", "6x5", "--type", "f32le"}), 2, "--grid, --type, ");
+  expect_error(reeb({"segment", "v.raw", "out.reeb", "-o", "a.i64", "--grid", "6x5", "--type", "f32le"}), 1);
+}
+
 TEST_F(Image, WithAHeaderTakesNoOptionsOfRawOnes) {
   const std::string header = "NRRD0005\ntype: uchar\ndimension: 2\nsizes: 2 2\nencoding: ascii\n\n";
   write("v.nrrd", header + "1 2 3 4\n");

@@ -59,8 +59,8 @@ void judge(const PlantedMesh& mesh, const Defects& defects, std::uint64_t seed, 
   std::ostringstream misses;
   const auto text = [](const DefectRow& row) {
     std::ostringstream out;
-    out << name_of(row.kind) << " at " << row.curve.center[0] << ' ' << row.curve.center[1] << ' '
-        << row.curve.center[2] << ", contour " << row.length_contour << ", cycle " << row.length_cycle;
+    out << name_of(row.kind) << " at " << row.curve.place.center[0] << ' ' << row.curve.place.center[1] << ' '
+        << row.curve.place.center[2] << ", contour " << row.length_contour << ", cycle " << row.length_cycle;
     return out.str();
   };
   if (rows.size() != genus(mesh)) misses << rows.size() << " rows of " << genus(mesh) << " loops\n";
@@ -68,7 +68,7 @@ void judge(const PlantedMesh& mesh, const Defects& defects, std::uint64_t seed, 
   double longest_planted = 0, shortest_other = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const DefectRow& row = rows[i];
-    const Point& center = row.curve.center;
+    const Point& center = row.curve.place.center;
     const bool first = i < taken.size();
     if (first) ++score.first_rows;
     std::size_t found = 0;
@@ -90,7 +90,7 @@ void judge(const PlantedMesh& mesh, const Defects& defects, std::uint64_t seed, 
     ++score.found;
     bool inside = true;
     for (std::size_t k = 0; k < 3; ++k)
-      inside = inside && row.curve.box[0][k] <= center[k] && center[k] <= row.curve.box[1][k];
+      inside = inside && row.curve.place.box[0][k] <= center[k] && center[k] <= row.curve.place.box[1][k];
     const bool kind = row.kind == (defect.tunnel ? DefectKind::kTunnel : DefectKind::kHandle);
     const bool close = std::abs(row.length() - defect.length()) <= 0.2 * defect.length();
     if (inside) ++score.center_in_box;
@@ -140,7 +140,8 @@ std::size_t right_kinds(const PlantedMesh& mesh, const Defects& defects) {
   for (const Planted& planted : mesh.planted)
     for (const DefectRow& row : defects.table.rows)
       if (row.kind == (planted.tunnel ? DefectKind::kTunnel : DefectKind::kHandle) &&
-          is_at(planted, row.curve.center) && std::abs(row.length() - planted.length()) <= 0.2 * planted.length()) {
+          is_at(planted, row.curve.place.center) &&
+          std::abs(row.length() - planted.length()) <= 0.2 * planted.length()) {
         ++right;
         break;
       }

@@ -172,6 +172,17 @@ TEST(Compute, RefusesWhatItCannotDo) {
   EXPECT_EQ(kind_of_failure([&] { compute(mesh, "z", output, {.interrupted = [] { return true; }}); }),
             ErrorKind::kInterrupted);
   EXPECT_FALSE(std::filesystem::exists(output));
+  for (const bool keeps : {true, false}) {
+    int asked = 0;
+    try {
+      compute(mesh, "z", output, {.keeps_checkpoints = keeps, .interrupted = [&] { return ++asked > 2; }});
+      ADD_FAILURE() << "it was not interrupted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.hint().find("--resume") != std::string::npos, keeps) << error.hint();
+    }
+    EXPECT_EQ(std::filesystem::exists(output + ".partial"), keeps);
+    std::filesystem::remove_all(output + ".partial");
+  }
   compute(mesh, "z", output);
   EXPECT_EQ(kind_of_failure([&] { compute(output, "z", folder / "again.reeb"); }), ErrorKind::kBadInput);
 }

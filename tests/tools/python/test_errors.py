@@ -102,6 +102,7 @@ NAN[5, 1] = np.nan
         ((VERTICES, FACES, {"height": NAN[:, 1]}), {"f": "property:height"}, "not finite", "height[5]", "input"),
         ((VERTICES, FACES, {"a/b": NAN[:, 1]}), {"f": "property:a/b"}, "not finite", "a/b[5]", "input"),
         ((IMAGE,), {"spacing": (1, np.nan)}, "nan is not a finite number", None, "usage"),
+        ((IMAGE,), {"spacing": [0] * IMAGE.ndim}, "spacing has a zero", None, "usage"),
         ((IMAGE,), {"spacing": "1;2"}, "not a list of numbers", None, "usage"),
         ((IMAGE,), {"origin": 3}, "not a list of numbers", None, "usage"),
         ((IMAGE,), {"nodata": "foo"}, "nodata='foo' is not a number", None, "usage"),

@@ -178,6 +178,8 @@ def image_of_array(image, spacing, origin, nodata):
     hint = f"one finite number for each of {'x, y' if image.ndim == 2 else 'x, y, z'}"
     origin = vector("origin", [0] * image.ndim if origin is None else origin, (image.ndim,), hint)
     spacing = vector("spacing", [1] * image.ndim if spacing is None else spacing, (image.ndim,), hint)
+    if 0 in spacing:
+        raise Error("spacing has a zero, which gives all vertices of an axis the same place", hint, kind="usage")
     value = None
     if nodata is not None and not (isinstance(nodata, str) and nodata == "skip"):
         if not is_number(nodata):
