@@ -78,7 +78,7 @@ void check_output_name(const std::string& path, Existing existing) {
   if (fs::is_regular_file(status) && existing == Existing::kRefuse) throw_name_is_taken(path);
 }
 
-void require_output_folder(const std::string& path, const char* option) {
+void require_output_folder(const std::string& path, const char* how) {
   if (is_device(path)) {
     if (path != kStandardOutput && ::access(path.c_str(), W_OK) != 0) throw_output_error(errno, path);
     return;
@@ -96,7 +96,7 @@ void require_output_folder(const std::string& path, const char* option) {
   if (probe < 0)
     throw Error(ErrorKind::kResource,
                 std::string("the output cannot be written to this folder: ") + std::strerror(errno),
-                hint_for(errno, std::string("choose a folder that exists and is writable with ") + option))
+                hint_for(errno, std::string("choose a folder that exists and is writable ") + how))
         .at(folder);
   ::close(probe);
 }

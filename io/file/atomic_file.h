@@ -28,8 +28,8 @@ enum class Existing {
 void check_output_name(const std::string& path, Existing existing);
 
 // The same for its place. THROWS: Error{kResource} if no file of this name can be created in its folder, which it
-// names, or if `path` is a device that cannot be written. The hint names `option`.
-void require_output_folder(const std::string& path, const char* option = "-o FILE");
+// names, or if `path` is a device that cannot be written. `how` says in the hint how to choose another folder.
+void require_output_folder(const std::string& path, const char* how = "with -o FILE");
 
 // The end of the chain of links that starts at `path`. There need not be a file yet.
 // THROWS: Error{kBadInput} if the chain has no end.

@@ -5,6 +5,7 @@
 #include <limits>
 
 namespace reeb {
+
 void LinearSum::Sum::add(double value) {
   const double sum = high + value, part = sum - high;
   low += (high - (sum - part)) + (value - part);

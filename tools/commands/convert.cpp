@@ -35,7 +35,7 @@ void run_convert(ConvertArguments arguments) {
   RunFiles files;
   files.add_mesh(options.input, options.format, options.image);
   if (options.order.function) files.add_values_of(*options.order.function);
-  files.add_output(options.output, "the output", existing_outputs(arguments.force));
+  files.add_output(options.output, "the output", existing_outputs(arguments.force), "for OUT");
   files.check();
   ProgressBar bar(arguments.quiet);
   const auto notes = convert_mesh(options, bar);

@@ -170,7 +170,7 @@ class Values {
       io::FileOstream stream(file.out());
       io::OutputBuffer out(stream);
       put_values([&](std::span<const double> values) {
-        for (const double value : values) out << value << '\n';
+        for (const double value : values) out << io::Shortest{value} << '\n';
       });
       out.flush();
     }

@@ -67,8 +67,8 @@ void take_files(RepairArguments& arguments) {
   if (!arguments.apply_undo.empty()) files.add_input(arguments.apply_undo, "the undo file");
   const io::Existing existing = existing_outputs(arguments.force);
   files.add_output(options.output, "the output", existing);
-  if (!arguments.log.empty()) files.add_output(arguments.log, "the log", existing, "--log FILE");
-  if (!arguments.undo.empty()) files.add_output(arguments.undo, "the undo file", existing, "--undo FILE");
+  if (!arguments.log.empty()) files.add_output(arguments.log, "the log", existing, "with --log FILE");
+  if (!arguments.undo.empty()) files.add_output(arguments.undo, "the undo file", existing, "with --undo FILE");
   files.check();
 }
 

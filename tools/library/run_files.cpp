@@ -84,8 +84,8 @@ void RunFiles::add_values_of(const io::FunctionSpec& function) {
   if (function.kind == io::FunctionSpec::Kind::kFile) add_input(function.argument, "the file of values");
 }
 
-void RunFiles::add_output(std::string path, std::string what, io::Existing existing, const char* option) {
-  outputs_.push_back({std::move(path), std::move(what), existing, option});
+void RunFiles::add_output(std::string path, std::string what, io::Existing existing, const char* how) {
+  outputs_.push_back({std::move(path), std::move(what), existing, how});
 }
 
 void RunFiles::add_standard_output(std::string what) {
@@ -113,7 +113,7 @@ std::vector<RunFiles::File> RunFiles::outputs() const {
     std::ranges::sort(names);
     for (const std::string& name : names)
       all.push_back(
-          {series.folder == "." ? name : series.folder + "/" + name, series.what, series.existing, "-o FILE"});
+          {series.folder == "." ? name : series.folder + "/" + name, series.what, series.existing, "with -o FILE"});
   }
   return all;
 }
@@ -143,7 +143,7 @@ void RunFiles::check() const {
     if (error.cause() != ErrorCause::kExists || why_existing_.empty()) throw;
     throw error.with_hint(why_existing_ + "; " + error.hint());
   }
-  for (const File& output : all) io::require_output_folder(output.path, output.option);
+  for (const File& output : all) io::require_output_folder(output.path, output.how);
   for (const std::string& name : first_snapshots_) io::require_output_folder(name);
 }
 
@@ -200,7 +200,8 @@ RunFiles files_of_run(const std::string& mesh, std::span<const io::FunctionSpec>
     const bool is_sidecar = ooc::is_sidecar(sidecar);
     // One that is there and fits is read, and replaced if it does not fit.
     if (options.keep_sidecar)
-      files.add_output(sidecar, "the sidecar", is_sidecar ? io::Existing::kReplace : existing);
+      files.add_output(sidecar, "the sidecar", is_sidecar ? io::Existing::kReplace : existing,
+                       "for the mesh, or leave out --sidecar");
     else if (is_sidecar)
       files.add_input(sidecar, "the sidecar of the mesh");
   }

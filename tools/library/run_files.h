@@ -27,8 +27,8 @@ class RunFiles {
   void add_mesh(const std::string& path, const std::string& format, const io::ImageOptions& image);
   // The file of values of this function, if it has one.
   void add_values_of(const io::FunctionSpec& function);
-  // `option` names it, for hints.
-  void add_output(std::string path, std::string what, io::Existing existing, const char* option = "-o FILE");
+  // `how` says in hints how to choose another folder for it.
+  void add_output(std::string path, std::string what, io::Existing existing, const char* how = "with -o FILE");
   // What is printed: nothing is overwritten by it, but a file that standard output is appended to grows.
   void add_standard_output(std::string what = "the output");
   // Files STEM-000001.reeb, STEM-000002.reeb and so on, of any number.
@@ -53,7 +53,7 @@ class RunFiles {
     std::string path, what;
     // Of an output:
     io::Existing existing = io::Existing::kReplace;
-    const char* option = "-o FILE";
+    const char* how = "with -o FILE";
   };
 
   std::vector<File> outputs() const;

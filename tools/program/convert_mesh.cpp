@@ -182,7 +182,6 @@ class Conversion {
     ReadOptions options;
     options.all_properties = holds_properties();
     options.properties = requested_properties();
-    options.signed_zeros = true;
     // With batches of one event, finalizations stay directly after the triangles that they follow.
     if (!sorts_ && format_ != io::StreamFormat::kNone) options.batch_events = 1;
     return options;

@@ -52,7 +52,7 @@ void run_glue(GlueArguments arguments) {
   for (const std::string& fragment : arguments.fragments) files.add_input(fragment, "a fragment");
   files.add_output(arguments.output, "the output", existing_outputs(options.replace));
   if (!arguments.report.empty())
-    files.add_output(arguments.report, "the report", existing_outputs(options.replace), "--report FILE");
+    files.add_output(arguments.report, "the report", existing_outputs(options.replace), "with --report FILE");
   files.check();
   for (const std::string& fragment : arguments.fragments) require_fragment(fragment);
 
@@ -66,6 +66,7 @@ void run_glue(GlueArguments arguments) {
   facts.path = arguments.fragments[0];
   facts.format = "fragments";
   facts.fragments = arguments.fragments.size();
+  facts.input_bytes = std::filesystem::file_size(facts.path);
   if (options.memory_bytes != MemoryBudget::kUnlimited) facts.memory_budget_bytes = options.memory_bytes;
   if (!arguments.quiet && glued.result) print_summary(facts, {*glued.result});
   if (!arguments.quiet && !glued.result) {

@@ -87,7 +87,7 @@ void check_files(const RunArguments& arguments, const std::vector<std::string>& 
   }
   RunFiles files = files_of_run(arguments.mesh, functions, outputs, arguments.options);
   if (!report.empty())
-    files.add_output(report, "the report", existing_outputs(arguments.options.replace), "--report FILE");
+    files.add_output(report, "the report", existing_outputs(arguments.options.replace), "with --report FILE");
   files.check();
 }
 

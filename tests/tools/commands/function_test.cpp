@@ -49,6 +49,12 @@ class Function : public ProgramTest {
   }
 };
 
+TEST_F(Function, WritesNumbersInTheirShortestForm) {
+  write("short.obj", "v 0 0 0.1\nv 1 0 -1e-7\nv 0 1 2\nf 1 2 3\n");
+  expect_success(reeb({"function", "short.obj", "-f", "z", "-o", "short.txt"}));
+  EXPECT_EQ(file("short.txt"), "0.1\n-1e-07\n2\n");
+}
+
 TEST_F(Function, WritesValuesInTheOrderOfVertices) {
   write("s.off", strip(3));
   EXPECT_EQ(values("s.off", "x"), (std::vector<double>{0, 0, 1, 1, 2, 2, 3, 3}));
