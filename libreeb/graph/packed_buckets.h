@@ -20,7 +20,7 @@ namespace reeb {
 inline constexpr std::uint64_t kPackedBucketBytes = 44;
 inline constexpr std::uint64_t kLeastPackedBucketBytes = 14;
 
-// The most bytes of a list of this length.
+// The most bytes of a bucket, and of a list of this length.
 inline constexpr std::size_t kMostBucketBytes = 2 * kMaxVarintBytes + 24 + 16;
 constexpr std::size_t most_packed_bytes(std::size_t count) { return kMaxVarintBytes + kMostBucketBytes * count; }
 

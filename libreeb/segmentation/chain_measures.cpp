@@ -49,8 +49,8 @@ ChainMeasures::ChainMeasures(const ReebGraph& graph, const ArcChains& chains, st
 void ChainMeasures::add(const CrossingTriangle& triangle) {
   while (chain_ < triangle.chain) end_chain();
   if (!started_) start_chain();
-  advance(scaled(triangle.from));
   const double from = scaled(triangle.from), to = scaled(triangle.to);
+  advance(from);
   const double lo = scaled(triangle.lo), mid = scaled(triangle.mid), hi = scaled(triangle.hi);
   longest_ = std::max(longest_, triangle.length);
   add_part(std::max(from, lo), std::min(to, mid), triangle.length / (mid - lo), lo);

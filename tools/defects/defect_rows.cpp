@@ -224,7 +224,7 @@ DefectRow row_of(const LoopList& list, std::uint32_t number, const FoundCurves* 
     row.length_cycle = length(found->cycle);
     const FoundCurve& other = curve == &found->contour ? found->cycle : found->contour;
     if (length(other) < std::numeric_limits<double>::infinity()) row.other_path = other.path;
-    // A shorter contour that is not along edges, as at a boundary.
+    // A shorter contour that is not along edges, as around a vertex where two sheets meet.
     if (length(other) < curve->length && row.kind == DefectKind::kUnclear) {
       row.curve = other;
       row.other_path = curve->path;

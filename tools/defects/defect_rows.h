@@ -16,7 +16,9 @@ struct DefectRow {
   std::size_t function = 0;  // of the list
   SettledNode lo, hi;
   double persistence = 0, percent = 0;
-  FoundCurve curve;                  // the shorter one; its place is that of the nodes if none was found
+  // The shorter one; if its kind is clear, the shorter of those along edges. If none was found, its place is that of
+  // the nodes.
+  FoundCurve curve;
   std::vector<VertexId> other_path;  // the other curve, if it was found along edges
   DefectKind kind = DefectKind::kUnclear;
   double length_contour = std::numeric_limits<double>::infinity();
