@@ -73,9 +73,12 @@ BucketLists::Index BucketLists::new_bucket(const BucketSum& bucket) {
   return b;
 }
 
-void BucketLists::add_to_buckets(std::span<const VertexInBucket> vertices) {
+void BucketLists::add_to_buckets(std::span<const Index> buckets, std::span<const Point> positions) {
   BucketSum* const sums = sums_.data();  // stays in a register: no write to a sum can change it
-  for (const auto& [position, bucket] : vertices) sums[bucket].add(*position);
+  const bool at_origin = positions.empty();
+  const Point origin{};
+  for (std::size_t i = 0; i < buckets.size(); ++i)
+    if (buckets[i] != kNone) sums[buckets[i]].add(at_origin ? origin : positions[i]);
 }
 
 void BucketLists::link_last(List& list, Index b) {

@@ -142,23 +142,20 @@ class BucketLists {
   }
 
   // For the vertices of a sweep, ascending: all up to the next call are in buckets of this index.
-  // REQUIRES: the index is not less than before (it may be the same); while vertices are added through
-  // current_bucket(), nothing else changes the lists.
+  // REQUIRES: the index is not less than before (it may be the same); from the first call of current_bucket() to
+  // add_to_buckets(), nothing else changes the lists.
   void start_bucket(std::int64_t index) {
     if (index == current_index_) return;
     current_index_ = index;
     first_current_ = static_cast<Index>(sums_.size());
   }
-  // The bucket of that index in the list. Vertices can be added to it at any later time.
+  // The bucket of that index in the list. Vertices are added to it later.
   Index current_bucket(List& list) {
     return list.last + 1 > first_current_ ? list.last : add_current_bucket(list);  // kNone + 1 == 0
   }
-  struct VertexInBucket {
-    const Point* position;
-    Index bucket;
-  };
-  // REQUIRES: the buckets are from current_bucket(). Positions and buckets should have been prefetched.
-  void add_to_buckets(std::span<const VertexInBucket> vertices);
+  // Adds vertex i, at positions[i], to buckets[i] unless that is kNone. If there are no positions, all are the origin.
+  // REQUIRES: the buckets are from current_bucket().
+  void add_to_buckets(std::span<const Index> buckets, std::span<const Point> positions);
 
   // Like all that add up buckets, these throw what BucketSum::check_room() does.
   //
@@ -203,15 +200,12 @@ class BucketLists {
     while (b != list.last);
   }
 
-  // Prefetches a bucket, or the last one of a list, which mostly is its only one.
-  void prefetch_sum(Index bucket) const {
-    reeb::prefetch(&sums_[bucket]);
-    reeb::prefetch(&sums_[bucket].sum[2]);
-  }
+  // Prefetches the last bucket of a list, which mostly is its only one.
   void prefetch(const List& list) const {
     if (list.empty()) return;
     reeb::prefetch(&links_[list.last]);
-    prefetch_sum(list.last);
+    reeb::prefetch(&sums_[list.last]);
+    reeb::prefetch(&sums_[list.last].sum[2]);
   }
 
   std::size_t used() const { return sums_.size() - free_count_; }  // buckets

@@ -1,11 +1,8 @@
 #include "libreeb/sweep/fragment_builder.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <span>
 
-#include "libreeb/base/prefetch.h"
 #include "libreeb/sweep/chunk.h"
 
 namespace reeb {
@@ -112,34 +109,21 @@ void FragmentBuilder::mark_arcs_between_used(const SweptChunk& swept) {
   }
 }
 
-// One bucket after the other, since those of one index stay in the cache meanwhile. The positions can be anywhere in
-// the chunk. So they and the buckets are prefetched for a block of vertices before the block is added up.
+// Buckets are found in the order of the sweep, in which all vertices of one index follow each other. Positions are
+// added in the order of the chunk: there they follow each other in memory, and vertices next to each other on the mesh
+// are often of one bucket.
 void FragmentBuilder::add_positions(const SweptChunk& swept) {
-  std::array<BucketLists::VertexInBucket, 32> block;
-  std::size_t count = 0;
-  const auto add_block = [&] {
-    graph_.buckets.add_to_buckets(std::span(block).first(count));
-    count = 0;
-  };
-  const Point origin{};
-  const std::span<const Point> positions = swept.chunk.positions;
   const auto n = static_cast<std::uint32_t>(swept.order.size());
+  fill_with_room(bucket_of_, swept.chunk.vertex_count(), BucketLists::kNone);
   for (std::uint32_t v = 0, end = n; v < n; v = end) {
     const std::int64_t index = bucket_index(swept.value(VertexRank(v)), *options_.bucket_exponent);
     end = swept.end_of_bucket(v, index, *options_.bucket_exponent);
     graph_.buckets.start_bucket(index);
-    for (VertexRank r(v); r.value() < end; ++r) {
-      const SweepArc arc = arc_of_regular_[r];
-      if (arc == SweepArc::none()) continue;
-      const BucketLists::Index bucket = graph_.buckets.current_bucket(graph_.arc_buckets[arc]);
-      const Point* const position = positions.empty() ? &origin : &positions[swept.local(r).value()];
-      prefetch(position);
-      graph_.buckets.prefetch_sum(bucket);
-      block[count++] = {position, bucket};
-      if (count == block.size()) add_block();
-    }
+    for (VertexRank r(v); r.value() < end; ++r)
+      if (const SweepArc arc = arc_of_regular_[r]; arc != SweepArc::none())
+        bucket_of_[swept.local(r).value()] = graph_.buckets.current_bucket(graph_.arc_buckets[arc]);
   }
-  add_block();
+  graph_.buckets.add_to_buckets(bucket_of_, swept.chunk.positions);
 }
 
 void FragmentBuilder::sort_steps(const SweptChunk& swept, const SharedEdges& shared) {
@@ -182,7 +166,7 @@ void FragmentBuilder::add_steps(const SharedEdges& shared, Fragment& fragment) c
 std::size_t FragmentBuilder::memory_bytes() const {
   return graph_.memory_bytes() + leaf_removal_.memory_bytes() + division_.memory_bytes() + 8 * steps_.capacity() +
          4 * (node_of_.capacity() + arc_of_regular_.capacity() + settled_number_.capacity() + path_arcs_.capacity() +
-              degrees_.capacity() + arcs_xor_.capacity() + leaves_.capacity());
+              degrees_.capacity() + arcs_xor_.capacity() + leaves_.capacity() + bucket_of_.capacity());
 }
 
 }  // namespace reeb

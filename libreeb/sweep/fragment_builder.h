@@ -78,6 +78,7 @@ class FragmentBuilder {
   FragmentDivision division_;
   IdVector<VertexRank, SweepNode> node_of_;        // set for nodes only
   IdVector<VertexRank, SweepArc> arc_of_regular_;  // of other vertices, none()
+  std::vector<BucketLists::Index> bucket_of_;      // of regular vertices, by local vertex
   std::vector<PackedStep> steps_;                  // sorted
   std::vector<SweepArc> path_arcs_;                // as in the fragment
   std::vector<std::uint32_t> degrees_, arcs_xor_;  // of a tree, by node

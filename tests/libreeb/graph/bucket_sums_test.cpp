@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <deque>
 #include <functional>
 #include <limits>
 #include <map>
@@ -216,15 +215,20 @@ class ManyLists {
       BucketSum vertex{.index = index};
       const Point position = random_point(random_);
       vertex.add(position);
-      positions_.push_back(position);
-      noted_.push_back({&positions_.back(), pool_.current_bucket(lists_[i])});
+      note(position, pool_.current_bucket(lists_[i]));
+      if (random_.chance(10)) note(random_point(random_), BucketLists::kNone);
       if (random_.chance(5)) add_noted();
       models_[i].add(vertex);
     }
   }
+  void note(const Point& position, BucketLists::Index bucket) {
+    positions_.push_back(position);
+    buckets_.push_back(bucket);
+  }
   void add_noted() {
-    pool_.add_to_buckets(noted_);
-    noted_.clear();
+    pool_.add_to_buckets(buckets_, positions_);
+    positions_.clear();
+    buckets_.clear();
   }
 
   void step() {
@@ -326,9 +330,22 @@ class ManyLists {
   BucketLists pool_;
   std::array<BucketLists::List, kLists> lists_{};
   std::array<Model, kLists> models_;
-  std::deque<Point> positions_;
-  std::vector<BucketLists::VertexInBucket> noted_;  // not added yet
+  // Not added yet.
+  std::vector<Point> positions_;
+  std::vector<BucketLists::Index> buckets_;
 };
+
+TEST(BucketLists, TakeVerticesWithoutPositionsToBeAtTheOrigin) {
+  BucketLists pool;
+  pool.start(0);
+  pool.start_bucket(7);
+  BucketLists::List list;
+  const BucketLists::Index bucket = pool.current_bucket(list);
+  pool.add_to_buckets(std::array{bucket, BucketLists::kNone, bucket}, {});
+  BucketSum expected{.index = 7};
+  for (int i = 0; i < 2; ++i) expected.add(Point{});
+  pool.visit(list, [&](const BucketSum& sum) { EXPECT_TRUE(same(sum, expected)); });
+}
 
 TEST(BucketLists, HoldWhatMapsHold) {
   const std::uint64_t seed = base_seed(), cases = case_count(2000);
