@@ -32,23 +32,20 @@ roff() { sed 's/\\/\\e/g; s/-/\\-/g; s/^\([.'"'"']\)/\\\&\1/'; }
 # The lines after "Example:" or "Examples:".
 examples() { awk 'inside && /^[^ ]/ { exit } inside && NF { sub(/^  /, ""); print } /^Examples?:/ { inside = 1 }'; }
 
-tagged() {  # .TP entries of items on standard input
-  while IFS=$'\t' read -r term text; do
-    printf '.TP\n.B %s\n%s\n' "$(roff <<<"$term")" "$(roff <<<"$text")"
-  done
-}
+# .TP entries of items on standard input.
+tagged() { sed 's/\t/\n/' | roff | sed '1~2s/^/.TP\n.B /'; }
 
 page() {  # page COMMAND: the man page; an empty COMMAND is the program
   local command=$1 help name title
   help=$("$reeb" $command --help)
-  name=reeb${command:+-$command} title=$(head -1 <<<"$help")
+  name=reeb${command:+-$command} title=${help%%$'\n'*}
   printf '.TH %s 1 "" "reeb %s" "User Commands"\n.SH NAME\n%s \\- %s\n' "${name^^}" "$version" "$(roff <<<"$name")" \
     "$(roff <<<"$title")"
   printf '.SH SYNOPSIS\n'
   sed -n 's/^Usage: //p; s/^       \(reeb [^ ]* \[OPTIONS\]\).*/.br\n\1/p' <<<"$help" | roff | sed 's/^\\&//; /^\.br/!s/^/.B /'
   local section
   for section in Arguments Options Commands; do
-    if grep -q "^$section:" <<<"$help"; then
+    if [[ $help == *$'\n'"$section:"* ]]; then
       printf '.SH %s\n' "${section^^}"
       items "$section" <<<"$help" | tagged
     fi
@@ -84,11 +81,24 @@ mapfile -t commands < <("$reeb" --help | items Commands | cut -f1)
 page "" >"$out/man/reeb.1"
 for command in "${commands[@]}"; do page "$command" >"$out/man/reeb-$command.1"; done
 
-options() { "$reeb" "$1" --help | items Options; }
-words() { options "$1" | cut -f1 | tr ', ' '\n\n' | grep '^-' | tr '\n' ' '; }
-# Options whose value is a name of a file.
-file_options() { options "$1" | cut -f1 | sed -n 's/^\([^ ]*\) \(FILE\|DIR\|MESH\|OUT\)$/\1/p' | tr ',' '\n' | tr '\n' '|'; }
-value_options() { options "$1" | cut -f1 | sed -n 's/^\([^ ]*\) .*/\1/p' | tr ',' '\n' | tr '\n' '|'; }
+# A few processes for each command, not for each option: those took half a minute.
+declare -A options_of
+for command in "${commands[@]}"; do options_of[$command]=$("$reeb" "$command" --help | items Options); done
+options() { echo "${options_of[$1]}"; }
+# What the completion of bash knows of a command: its options, those with a value, and those whose value is a file.
+words_of() {
+  options "$1" | awk -F '\t' '
+    {
+      count = split($1, part, " ")
+      names = split(part[1], name, ",")
+      for (i = 1; i <= names; ++i) {
+        words = words name[i] " "
+        if (count > 1) values = values name[i] "|"
+        if (part[2] ~ /^(FILE|DIR|MESH|OUT)$/) files = files name[i] "|"
+      }
+    }
+    END { printf "words='\''%s'\'' files='\''|%s'\'' values='\''|%s'\''", words, files, values }'
+}
 
 {
   cat <<END
@@ -101,12 +111,9 @@ _reeb() {
   fi
   case \$command in
 END
-  for command in "${commands[@]}"; do
-    files=$(file_options "$command") values=$(value_options "$command")
-    printf "    %s) words='%s' files='%s' values='%s' ;;\n" "$command" "$(words "$command")" "|${files}" "|${values}"
-  done
+  for command in "${commands[@]}"; do echo "    $command) $(words_of "$command") ;;"; done
   cat <<END
-    *) words='$(words compute)' files='|$(file_options compute)' values='|$(value_options compute)' ;;
+    *) $(words_of compute) ;;
   esac
   if [[ \$values == *"|\$previous|"* && \$files != *"|\$previous|"* ]]; then
     COMPREPLY=()
@@ -124,17 +131,17 @@ quoted() { sed "s/'/'\\\\''/g; s/\[/(/g; s/\]/)/g; s/:/ -/g"; }
 {
   echo '#compdef reeb'
   echo 'local -a commands; commands=('
-  "$reeb" --help | items Commands | while IFS=$'\t' read -r name text; do echo "  '$name:$(quoted <<<"$text")'"; done
+  "$reeb" --help | items Commands | quoted | while IFS=$'\t' read -r name text; do echo "  '$name:$text'"; done
   echo ')'
   echo 'if (( CURRENT == 2 )); then _describe command commands; _files; return; fi'
   echo 'case $words[2] in'
   for command in "${commands[@]}" '*'; do
     echo "  $command) _arguments '*:file:_files' \\"
-    options "${command/\*/compute}" | while IFS=$'\t' read -r term text; do
+    options "${command/\*/compute}" | quoted | while IFS=$'\t' read -r term text; do
       value=${term#* } names=${term%% *} action=
-      [[ $value != "$term" ]] && action=":${value//[\[\]]/}: "
+      [[ $value != "$term" ]] && action=":${value//[()]/}: "
       [[ $value =~ ^(FILE|DIR|MESH|OUT)$ ]] && action=":$value:_files"
-      for name in ${names//,/ }; do echo "    '*$name[$(quoted <<<"$text")]${action//\'/}' \\"; done
+      for name in ${names//,/ }; do echo "    '*${name}[$text]$action' \\"; done
     done
     echo '    ;;'
   done
@@ -143,18 +150,18 @@ quoted() { sed "s/'/'\\\\''/g; s/\[/(/g; s/\]/)/g; s/:/ -/g"; }
 
 {
   echo '# Completion of reeb for fish.'
-  "$reeb" --help | items Commands | while IFS=$'\t' read -r name text; do
-    echo "complete -c reeb -n __fish_use_subcommand -a $name -d '$(quoted <<<"$text")'"
+  "$reeb" --help | items Commands | quoted | while IFS=$'\t' read -r name text; do
+    echo "complete -c reeb -n __fish_use_subcommand -a $name -d '$text'"
   done
   for command in "${commands[@]}"; do
-    options "$command" | while IFS=$'\t' read -r term text; do
+    options "$command" | quoted | while IFS=$'\t' read -r term text; do
       value=${term#* } names=${term%% *} words=
       [[ $value != "$term" ]] && words=' -r'
       [[ -n $words && ! $value =~ ^(FILE|DIR|MESH|OUT)$ ]] && words=' -x'
       for name in ${names//,/ }; do
         if [[ $name == --* ]]; then words+=" -l ${name#--}"; else words+=" -s ${name#-}"; fi
       done
-      echo "complete -c reeb -n '__fish_seen_subcommand_from $command'$words -d '$(quoted <<<"$text")'"
+      echo "complete -c reeb -n '__fish_seen_subcommand_from $command'$words -d '$text'"
     done
   done
 } >"$out/reeb.fish"
