@@ -73,14 +73,21 @@ WrittenGraph write_graph(RunContext& run, const StoredGraph& graph, const FileMe
 }
 
 Error no_memory_for(const RunContext& run, const std::string& what, const std::string& output, std::uint64_t arcs,
-                    std::uint64_t needed, const std::string& otherwise) {
-  // Reading what is stored takes up to a quarter of the budget.
-  const std::uint64_t enough = run.plan.set_aside_bytes + (run.budget.used_bytes() + needed) / 3 * 4;
+                    NeededBytes needed, const std::string& otherwise) {
+  const auto size = [&](std::uint64_t bytes) {
+    // Reading what is stored takes up to a quarter of the budget.
+    const std::uint64_t enough = run.plan.set_aside_bytes + (run.budget.used_bytes() + bytes) / 3 * 4;
+    return std::to_string(enough / (1 << 20) + 1) + "M";
+  };
+  std::string range = "up to " + format_bytes(needed.most), enough = size(needed.most);
+  if (needed.least < needed.most) {
+    range = format_bytes(needed.least) + " to " + format_bytes(needed.most);
+    enough += " (" + size(needed.least) + " may be enough)";
+  }
   Error error(ErrorKind::kResource,
-              what + " of " + count_of(arcs, "arc") + " needs up to " + format_bytes(needed) + " of memory, but only " +
+              what + " of " + count_of(arcs, "arc") + " needs " + range + " of memory, but only " +
                   format_bytes(run.budget.free_bytes()) + " is left; the graph itself was written",
-              "with --force, since the graph is there: allow --memory " + std::to_string(enough / (1 << 20) + 1) +
-                  "M, or " + otherwise);
+              "with --force, since the graph is there: allow --memory " + enough + ", or " + otherwise);
   return error.at(output).because(ErrorCause::kMemory);
 }
 

@@ -35,8 +35,12 @@ Poll stage_poll(const RunContext& run);
 // bytes per node, and 4 bytes per vertex if there are many look-ups.
 WrittenGraph write_graph(RunContext& run, const StoredGraph& graph, const FileMeta& meta);
 
+// What a step needs: `most` suffices, and with less than `least` there is no use in trying.
+struct NeededBytes {
+  std::uint64_t least, most;
+};
 // The error for a graph that was written although its next step did not fit.
 Error no_memory_for(const RunContext& run, const std::string& what, const std::string& output, std::uint64_t arcs,
-                    std::uint64_t needed, const std::string& otherwise);
+                    NeededBytes needed, const std::string& otherwise);
 
 }  // namespace reeb::ooc

@@ -58,8 +58,8 @@ LastNoise remove_last_noise(RunContext& run, StoredGraph& graph) {
     FileMeta meta = graph.meta;
     meta.denoise_threshold = 0;
     write_graph(run, graph, meta);
-    throw no_memory_for(run, "the last pass of noise removal", graph.output, store.arc_count(), pass.needed_bytes,
-                        "leave out --denoise");
+    throw no_memory_for(run, "the last pass of noise removal", graph.output, store.arc_count(),
+                        {pass.needed_bytes, pass.needed_bytes}, "leave out --denoise");
   }
   if (!pass.change) return {pass.removed_pairs};
   const std::uint64_t change_bytes = pass.change->reserved_bytes(), changed_arcs = pass.change->arcs->size(),
@@ -129,13 +129,6 @@ struct GraphInMemory {
   std::uint64_t more_bytes = 0;  // that pairing and cancelling take in addition
 };
 
-// The hierarchy cannot be made: writes the graph as it is, and tells the user.
-[[noreturn]] void refuse_hierarchy(RunContext& run, const StoredGraph& graph, std::uint64_t needed) {
-  write_graph(run, graph, graph.meta);
-  throw no_memory_for(run, "the hierarchy", graph.output, graph.store->arc_count(), needed,
-                      "remove noise with --denoise, or compute the graph alone with --graph-only");
-}
-
 // The log of a hierarchy in memory.
 std::uint64_t log_bytes(std::uint64_t arcs) { return RecordLog::memory_bytes(RecordLog::block_bytes(arcs)); }
 
@@ -145,6 +138,15 @@ std::uint64_t bytes_in_memory(const StoredGraph& graph) {
   std::optional<std::uint64_t> lists;
   if (graph.sweep.bucket_exponent) lists = PackedLists::most_bytes(arcs, graph.store->bucket_count());
   return hierarchy_bytes(graph.store->node_count(), arcs, lists) + log_bytes(arcs);
+}
+
+// The hierarchy cannot be made: writes the graph as it is, and tells the user. With `least` bytes it can be tried
+// again.
+[[noreturn]] void refuse_hierarchy(RunContext& run, const StoredGraph& graph, std::uint64_t least) {
+  const std::uint64_t most = bytes_in_memory(graph);
+  write_graph(run, graph, graph.meta);
+  throw no_memory_for(run, "the hierarchy", graph.output, graph.store->arc_count(), {std::min(least, most), most},
+                      "remove noise with --denoise, or compute the graph alone with --graph-only");
 }
 
 // Pairing and cancelling hold the graph in memory, but not their results. Nothing if it does not fit.
@@ -182,7 +184,7 @@ void write_file(RunContext& run, const StoredGraph& stored, HierarchySource& hie
   written.spilled_bytes = records.spilled_bytes();
 }
 
-// Pairs and cancels on disk, and writes the file. Returns the memory that is needed if it cannot be done.
+// Pairs and cancels on disk, and writes the file. If it cannot be done, returns the memory with which it might.
 std::optional<std::uint64_t> make_on_disk(RunContext& run, const StoredGraph& stored, std::uint64_t least,
                                           WrittenHierarchy& written) {
   SegmentStore& store = *stored.store;
@@ -195,8 +197,7 @@ std::optional<std::uint64_t> make_on_disk(RunContext& run, const StoredGraph& st
   const std::uint64_t writing = hierarchy_file_bytes(store.node_count(), hierarchy.pair_count());
   const std::uint64_t steps = sizeof(double) * hierarchy.pair_count();
   const std::uint64_t needed = writing + steps + hierarchy.writing_bytes();
-  if (needed > run.budget.free_bytes() + hierarchy.table_bytes())
-    return std::min(least + needed, bytes_in_memory(stored));
+  if (needed > run.budget.free_bytes() + hierarchy.table_bytes()) return least + needed;
   if (!hierarchy.cancel(records, part_of(poll, paired, kBuilt))) return bytes_in_memory(stored);
   const Reservation memory = run.budget.reserve("layout of the file", writing);
   write_file(run, stored, hierarchy, records, written);
@@ -209,7 +210,7 @@ std::optional<std::uint64_t> make_on_disk(RunContext& run, const StoredGraph& st
 WrittenHierarchy write_stored_hierarchy(RunContext& run, const StoredGraph& stored) {
   return_freed_memory();
   const std::uint64_t least = StoredHierarchy::least_bytes(stored.store->node_count()) + RecordLog::memory_bytes();
-  if (least > run.budget.free_bytes()) refuse_hierarchy(run, stored, std::min(least, bytes_in_memory(stored)));
+  if (least > run.budget.free_bytes()) refuse_hierarchy(run, stored, least);
   WrittenHierarchy written;
   std::optional<std::uint64_t> needed;
   const std::uint64_t refusals = run.budget.refusals();

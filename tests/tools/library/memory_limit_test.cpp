@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -172,6 +173,22 @@ TEST_F(MemoryLimit, HoldsForManyParallelArcs) {
     expect_done_or_refused(compute("mesh.ply", megabytes, "2", {"--graph-only"}), megabytes);
   expect_refused(32, {});
   expect_refused(20, {"--graph-only", "--buckets", "0"});
+}
+
+// How much a hierarchy needs beyond the least depends on where its steps are. With what the hint says, it is made.
+TEST_F(MemoryLimit, HintsAtWhatAHierarchyNeeds) {
+  expect_success(reeb({"generate", "scan", "--triangles", "1M", "-o", "mesh.ply"}));
+  const std::vector<std::string> more = {"-f", "random:1"};
+  for (const std::uint64_t megabytes : {20u, 32u}) {
+    const Outcome outcome = compute("mesh.ply", megabytes, "2", more);
+    expect_error(outcome, 3);
+    std::smatch size;
+    ASSERT_TRUE(std::regex_search(outcome.error, size, std::regex("allow --memory ([0-9]+)M"))) << outcome.error;
+    const std::uint64_t enough = std::stoull(size[1]);
+    const Outcome again = compute("mesh.ply", enough, "2", more);
+    expect_success(again);
+    expect_within(again, enough);
+  }
 }
 
 // Values in a text file take memory, which a run reserves before it reads the mesh. It does not guess then, though the
