@@ -10,10 +10,13 @@ if ! command -v clang-format-14 >/dev/null; then
   exit 0
 fi
 folders=(libreeb io ooc tools tests bench)
-differing=$(find "${folders[@]}" \( -name '*.h' -o -name '*.cpp' \) -print0 | sort -z |
-  xargs -0 -n 20 -P "$(nproc)" sh -c '
-    for file; do clang-format-14 --dry-run -Werror "$file" 2>/dev/null || echo "$file"; done' sh)
-[[ -n $differing ]] || exit 0
+# Many files for each process, since a start takes longer than a file.
+if said=$(find "${folders[@]}" \( -name '*.h' -o -name '*.cpp' \) -print0 | sort -z |
+  xargs -0 -n 100 -P "$(nproc)" clang-format-14 --dry-run -Werror 2>&1); then
+  exit 0
+fi
+differing=$(sed -n 's/^\([^:]*\):[0-9]*:[0-9]*: error: code should be clang-formatted.*/\1/p' <<<"$said" | sort -u)
+[[ -n $differing ]] || { echo "$said"; exit 1; }
 echo "These files are not formatted; this formats them:"
 echo "  clang-format-14 -i" $differing
 exit 1
