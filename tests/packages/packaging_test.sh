@@ -16,13 +16,16 @@ if have man; then
 fi
 # Every option of --help is in the page, and in each completion.
 everything() {
-  local command option options=0
+  local command option page of_bash of_fish of_zsh options=0
+  of_zsh=$(<help/_reeb)
   for command in $commands; do
+    page=$(<"help/man/reeb-$command.1") of_bash=$(grep -F " $command) " help/reeb.bash)
+    of_fish=$(grep -F "from $command'" help/reeb.fish)
     for option in $("$reeb" "$command" --help | grep -oE '^  (-[a-z],)?--[a-z-]+' | grep -oE -- '--[a-z-]+'); do
-      grep -qF -- "${option//-/\\-}" "help/man/reeb-$command.1" || { echo "page of $command: $option"; return 1; }
-      grep -qE -- " $command\) .*[ ']$option " help/reeb.bash || { echo "bash: $command $option"; return 1; }
-      grep -qE -- "from $command'.* -l ${option#--} " help/reeb.fish || { echo "fish: $command $option"; return 1; }
-      grep -qF -- "'*$option[" help/_reeb || { echo "zsh: $option"; return 1; }
+      [[ $page == *"${option//-/\\-}"* ]] || { echo "page of $command: $option"; return 1; }
+      [[ $of_bash == *[\ \']"$option "* ]] || { echo "bash: $command $option"; return 1; }
+      [[ $of_fish == *" -l ${option#--} "* ]] || { echo "fish: $command $option"; return 1; }
+      [[ $of_zsh == *"'*$option["* ]] || { echo "zsh: $option"; return 1; }
       options=$((options + 1))
     done
   done
