@@ -11,7 +11,7 @@ namespace reeb {
 inline constexpr double kNoLoop = -1;
 
 // For each arc the least range of values, highest minus lowest node, of a cycle through it, or kNoLoop. Ranges of
-// cycles are persistences of loops (Ext1 pairs).
+// cycles are persistences of loops (Ext1 pairs). One beyond the doubles counts as the greatest of them.
 //
 // TIME:    O((nodes + arcs) log(nodes)), amortized.
 // MEMORY:  48 bytes per node and arc, besides the result.

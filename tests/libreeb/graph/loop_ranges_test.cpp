@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
+#include <vector>
 
 #include "libreeb/containers/union_find.h"
 #include "libreeb/hierarchy/pairing.h"
@@ -55,6 +57,16 @@ TEST(LoopRanges, ArePersistencesOfLoops) {
     loops += range == kNoLoop ? 0u : 1u;
   }
   EXPECT_GT(loops, 100u);
+}
+
+// Such arcs seemed to be on no loop.
+TEST(LoopRanges, BeyondTheDoubles) {
+  ReebGraph graph;
+  for (const double value : {-1.7e308, 1.6e308, 1.7e308}) graph.nodes.push_back({value, VertexId(graph.nodes.size())});
+  graph.lo = {NodeId(0), NodeId(0), NodeId(1)};
+  graph.hi = {NodeId(1), NodeId(1), NodeId(2)};
+  constexpr double kGreatest = std::numeric_limits<double>::max();
+  EXPECT_EQ(loop_ranges(graph), (std::vector{kGreatest, kGreatest, kNoLoop}));
 }
 
 TEST(LoopRanges, OfNothing) { EXPECT_TRUE(loop_ranges(ReebGraph{}).empty()); }
