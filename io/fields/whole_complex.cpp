@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {

@@ -101,7 +101,8 @@ class ImageReader final : public GridReader {
     if (!image_.ends_content) return;
     const auto size = source.size();
     if (!size || image_.packing != Packing::kPlain)
-      throw Error(ErrorKind::kBadInput, "the header says that the data end the file, but where that is is not known",
+      throw Error(ErrorKind::kBadInput,
+                  "the header says that the data are the last bytes, but how many bytes there are is not known",
                   "unpack the file, or give the number of bytes to skip")
           .at(name_);
     const std::uint64_t bytes = values_ * byte_size(image_.type);

@@ -14,7 +14,6 @@
 #include "io/text/text_cursor.h"
 #include "io/text/words.h"
 #include "io/text/xml_parser.h"
-#include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {

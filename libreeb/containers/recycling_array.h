@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "libreeb/base/prefetch.h"
 #include "libreeb/base/state_stream.h"
 #include "libreeb/containers/growing_array.h"
 
@@ -44,7 +45,7 @@ class RecyclingArray {
     --recent_count_;
     --recent_end_;
     first_free_ = recent(1);
-    __builtin_prefetch(&elements_[recent(std::min(recent_count_, kTakesAhead))], 1);
+    prefetch_to_write(&elements_[recent(std::min(recent_count_, kTakesAhead))]);
     return index;
   }
   void free(std::uint32_t index) {

@@ -1,7 +1,6 @@
 #include "libreeb/graph/reeb_graph.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "libreeb/containers/union_find.h"
 

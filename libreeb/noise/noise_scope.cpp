@@ -1,6 +1,5 @@
 #include "libreeb/noise/noise_scope.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>

@@ -9,6 +9,7 @@
 //         it has to keep.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +21,7 @@
 #include <vector>
 
 #include "libreeb/base/ids.h"
+#include "libreeb/graph/settled_node.h"
 #include "libreeb/port/grid_reader.h"
 #include "libreeb/port/indexed_mesh.h"
 #include "libreeb/port/simplex_counts.h"
@@ -37,6 +39,13 @@ struct MeshBatch {
   // properties[k][i] is the k-th requested property (ReadOptions) of the i-th vertex. One that is delivered only since
   // all are (all_properties) need not be finite.
   std::vector<std::vector<double>> properties;
+
+  // Of vertex i of the batch: its first three coordinates, 0 where there are fewer.
+  Point position(std::size_t i) const {
+    Point point{};
+    for (std::size_t k = 0; k < std::min<std::size_t>(3, coordinates.size()); ++k) point[k] = coordinates[k][i];
+    return point;
+  }
 
   // Column k, numbered as in IndexedMesh::gather: coordinates first, then properties.
   std::vector<double>& column(std::size_t k) {

@@ -244,11 +244,8 @@ class StreamFeed {
   void count_components_only() { surface_.count_components_only(); }
   void add(const MeshBatch& batch) {
     for (std::size_t i = 0; i < batch.vertex_count; ++i) {
-      Point position{};
-      for (std::size_t k = 0; k < std::min<std::size_t>(batch.coordinates.size(), 3); ++k)
-        position[k] = batch.coordinates[k][i];
       const VertexId id(batch.first_vertex.value() + i);
-      slots_.find_or_insert(id.value(), surface_.add_vertex(id, position));
+      slots_.find_or_insert(id.value(), surface_.add_vertex(id, batch.position(i)));
     }
     end_ = std::max(end_, batch.first_vertex.value() + batch.vertex_count);
     batch.for_each_simplex([this](std::span<const VertexId> corners) { add(corners); });

@@ -16,7 +16,7 @@ namespace reeb::ooc {
 
 struct ResumeOptions {
   bool resume = false;                     // resume from a checkpoint that fits
-  bool discard = true;                     // else discard what an earlier run kept
+  bool discard = true;                     // without `resume`: discard what an earlier run kept; false: refuse to run
   double seconds = 2;                      // least time between checkpoints; 0: after every chunk
   std::function<bool()> interrupted = {};  // called often: whether the run is to end
 };

@@ -27,7 +27,7 @@ struct ChunkPlace {
                                    // Of a grid: the cells of a box along each axis
   std::uint64_t digest = 0;        // of what was read so far, as far as it is read again up to this place
   std::uint64_t completed = 0;     // vertices of an indexed mesh that chunks so far used last
-  std::vector<FunctionRange> ranges;  // of the values so far
+  std::vector<ValueRange> ranges;  // of the values so far
 };
 
 // A chunk in the pipeline. Later chunks reuse its memory.

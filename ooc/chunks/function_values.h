@@ -15,9 +15,6 @@
 
 namespace reeb::ooc {
 
-// The range of a function's values.
-using FunctionRange = ValueRange;
-
 class FunctionValues {
  public:
   // Positions are the first three coordinates, as far as the mesh has them.
@@ -34,10 +31,10 @@ class FunctionValues {
   // The columns to gather, in this order.
   std::span<const unsigned> columns() const { return columns_; }
   std::size_t function_count() const { return functions_.size(); }
-  const FunctionRange& range(std::size_t function) const { return ranges_[function]; }
-  const std::vector<FunctionRange>& ranges() const { return ranges_; }
+  const ValueRange& range(std::size_t function) const { return ranges_[function]; }
+  const std::vector<ValueRange>& ranges() const { return ranges_; }
   // Sets the ranges as if their values had been seen. REQUIRES: one per function.
-  void set_ranges(std::span<const FunctionRange> ranges) { ranges_.assign(ranges.begin(), ranges.end()); }
+  void set_ranges(std::span<const ValueRange> ranges) { ranges_.assign(ranges.begin(), ranges.end()); }
 
   // Turns gathered columns (data[k] is columns()[k]) into positions and one array of values per function. Both are
   // appended.
@@ -73,7 +70,7 @@ class FunctionValues {
 
  private:
   std::vector<VertexFunction*> functions_;
-  std::vector<FunctionRange> ranges_;
+  std::vector<ValueRange> ranges_;
   unsigned position_columns_;
   std::vector<unsigned> columns_;
   std::vector<std::span<const double>> own_;

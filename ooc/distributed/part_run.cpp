@@ -1,6 +1,5 @@
 #include "ooc/distributed/part_run.h"
 
-#include <memory>
 #include <utility>
 
 #include "libreeb/base/error.h"

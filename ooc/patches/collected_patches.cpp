@@ -27,9 +27,7 @@ CollectedPatches::CollectedPatches(std::span<const Ball> balls, std::span<const 
 
 void CollectedPatches::add(const MeshBatch& batch) {
   for (std::size_t i = 0; i < batch.vertex_count; ++i) {
-    Point point{};
-    for (std::size_t k = 0; k < std::min<std::size_t>(3, batch.coordinates.size()); ++k)
-      point[k] = batch.coordinates[k][i];
+    const Point point = batch.position(i);
     const std::uint32_t ball = grid_->find(point);
     if (ball == BallGrid::kNone) continue;
     const std::uint64_t vertex = batch.first_vertex.value() + i;

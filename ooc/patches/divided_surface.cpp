@@ -58,9 +58,7 @@ DividedSurface::Place DividedSurface::place_of(const Point& point) {
 
 void DividedSurface::add(const MeshBatch& batch, std::span<const std::vector<double>> values) {
   for (std::size_t i = 0; i < batch.vertex_count; ++i) {
-    Point point{};
-    for (std::size_t k = 0; k < std::min<std::size_t>(3, batch.coordinates.size()); ++k)
-      point[k] = batch.coordinates[k][i];
+    const Point point = batch.position(i);
     const auto [groups, is_measured] = place_of(point);
     if (groups == BallGrid::kNone) continue;
     const VertexId vertex(batch.first_vertex.value() + i);

@@ -3,8 +3,6 @@
 
 #include <cstddef>
 
-#include "libreeb/format/frame_codec.h"
-
 namespace reeb::ooc {
 
 inline constexpr std::size_t kFrameTargetBytes = 128 << 10;

@@ -1,6 +1,5 @@
 #include "ooc/run/compute.h"
 
-#include <functional>
 #include <utility>
 
 #include "io/file/atomic_file.h"

@@ -26,8 +26,8 @@ void append(std::vector<std::string>& notes, const std::vector<std::string>& mor
   notes.insert(notes.end(), more.begin(), more.end());
 }
 
-void check_ranges(const std::vector<FunctionRange>& ranges, std::size_t functions) {
-  const auto is_sound = [](const FunctionRange& range) {
+void check_ranges(const std::vector<ValueRange>& ranges, std::size_t functions) {
+  const auto is_sound = [](const ValueRange& range) {
     return std::isfinite(range.min) && std::isfinite(range.max) && range.min <= range.max;
   };
   if (ranges.size() != functions || !std::ranges::all_of(ranges, is_sound)) throw DamagedState();

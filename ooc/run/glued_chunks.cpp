@@ -32,7 +32,7 @@ FirstStageResult glue_chunks(RunContext& run, ChunkSource& stretches, const Memo
   PipelineOptions options;
   options.threads = plan.threads;
   options.are_boxes = here.origin == ChunkOrigin::kGrid;
-  options.choose_sweep = [&](std::size_t, const FunctionRange& range) {
+  options.choose_sweep = [&](std::size_t, const ValueRange& range) {
     SweepOptions sweep = sweep_options(run.options, range);
     sweep.follows_vertices = run.follower != nullptr;
     return sweep;

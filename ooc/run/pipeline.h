@@ -4,7 +4,6 @@
 // the queue cannot grow.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -27,7 +26,7 @@ using SaveEngine = std::function<void(StateWriter&)>;
 
 // Chooses how to sweep a chunk, from the number of a function and the range of its values up to the end of the chunk.
 // Several threads call it.
-using ChooseSweep = std::function<SweepOptions(std::size_t function, const FunctionRange& range)>;
+using ChooseSweep = std::function<SweepOptions(std::size_t function, const ValueRange& range)>;
 
 // How much the source had read after it read a chunk.
 struct SourceProgress {

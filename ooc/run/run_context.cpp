@@ -29,7 +29,7 @@ std::string readable_again(const MeshInput& input) { return input.may_resume && 
 
 }  // namespace
 
-SweepOptions sweep_options(const ComputeOptions& options, const FunctionRange& range) {
+SweepOptions sweep_options(const ComputeOptions& options, const ValueRange& range) {
   SweepOptions sweep;
   sweep.noise_below = options.denoise_is_share ? range.part(options.denoise) : options.denoise;
   if (options.buckets != 0) sweep.bucket_exponent = bucket_exponent(range.min, range.max, options.buckets);
@@ -70,7 +70,7 @@ void RunContext::start_over() {
   make_stores();
   if (follower) follower->start_over();
   resumable.start_over();
-  values.set_ranges(std::vector<FunctionRange>(functions.size()));
+  values.set_ranges(std::vector<ValueRange>(functions.size()));
 }
 
 void RunContext::restore_stores(StateReader& in) {

@@ -23,7 +23,7 @@ namespace reeb::ooc {
 
 // The options of a sweep if a function's values were in this range so far. The range only grows, so noise below a share
 // of it stays noise. REQUIRES: there was a value, or min = max = 0.
-SweepOptions sweep_options(const ComputeOptions& options, const FunctionRange& range);
+SweepOptions sweep_options(const ComputeOptions& options, const ValueRange& range);
 
 // The first stage fills the stores and the ranges of the values; the second reads both. Everything else does not
 // change.

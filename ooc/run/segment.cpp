@@ -170,7 +170,7 @@ class FollowedSegmentation : public Segmentation {
     require_same_mesh(file_.path(), {header.mesh_vertices, header.mesh_triangles},
                       {first.vertices, first.simplices[2]});
     if (first.vertices != 0) {
-      const FunctionRange range = run_.values.range(0);
+      const ValueRange range = run_.values.range(0);
       if (range.min != header.function_min || range.max != header.function_max)
         refuse(file_, "it is not the graph of this mesh: the values of " + header.function + " have another range");
     }

@@ -51,11 +51,6 @@ void ArcFollower::add_arcs(const SettledArcs& settled) {
   }
 }
 
-std::uint64_t ArcFollower::spilled_bytes() const {
-  return state_->placed.spilled_bytes() + state_->log.spilled_bytes() + state_->nodes.spilled_bytes() +
-         state_->arcs.spilled_bytes();
-}
-
 FollowedGraph ArcFollower::finish() {
   // Of more arcs, several have the same number; so this comes before any number is used.
   require_numbers(state_->nodes.size(), state_->arcs_added, options_.names.graph,

@@ -52,7 +52,6 @@ class ArcFollower : public GraphSink {
   // REQUIRES: the run is over.   THROWS: also what require_numbers() does.
   FollowedGraph finish();
   PlacedVertices& places() { return state_->placed; }
-  std::uint64_t spilled_bytes() const;
 
  private:
   struct State {

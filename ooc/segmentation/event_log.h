@@ -40,7 +40,6 @@ class EventLog : public ArcLog {
   void place_on_settled(std::uint32_t number, const SweepKey& vertex) override { placed_->add_on_arc(vertex, number); }
 
   std::uint32_t settled() const { return settled_; }
-  std::uint64_t spilled_bytes() const { return written_; }
   // Calls visit(event) for all events, from the last to the first. REQUIRES: nothing is added afterwards.
   template <class Visit>
   void read_backwards(const Visit& visit) {

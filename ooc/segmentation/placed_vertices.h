@@ -45,7 +45,6 @@ class PlacedVertices {
 
   std::uint64_t bound() const { return bound_; }
   std::uint64_t size() const { return size_; }
-  std::uint64_t spilled_bytes() const { return logs_->spilled_bytes(); }
 
   // The next vertices by index: kNone where none was added. Empty at the end. rewind() starts over.
   // THROWS: std::logic_error if a vertex was added twice.

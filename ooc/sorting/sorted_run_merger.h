@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "libreeb/base/prefetch.h"
 #include "ooc/sorting/rank_sort.h"
 #include "ooc/sorting/record_batch.h"
 #include "ooc/sorting/sorted_run_file.h"
@@ -183,9 +184,9 @@ class SortedRunMerger {
   // The next record of the run is read when this one wins, and so is the payload of this one. Neither was touched since
   // the block was unpacked, and the blocks of all runs together do not fit the caches.
   static void prefetch_after([[maybe_unused]] const RecordBatch<Record>& block, const Head& head) {
-    __builtin_prefetch(reinterpret_cast<const std::byte*>(head.place + 2) - 1);
+    prefetch(reinterpret_cast<const std::byte*>(head.place + 2) - 1);
     if constexpr (CarriesPayload<Record>)
-      if (head.record.payload.size != 0) __builtin_prefetch(block.pool.data() + head.record.payload.first);
+      if (head.record.payload.size != 0) prefetch(block.pool.data() + head.record.payload.first);
   }
 
   // A total order of the runs that have records left; exhausted runs come after them.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "libreeb/base/byte_coding.h"
+#include "libreeb/base/prefetch.h"
 #include "libreeb/graph/packed_buckets.h"
 #include "ooc/sorting/column_codec.h"
 #include "ooc/threads/worker.h"
@@ -78,7 +79,7 @@ namespace {
 void add_payloads(std::span<const StoredArc> arcs, std::span<const std::byte> pool, std::vector<std::byte>& packed) {
   constexpr std::size_t kAhead = 16;
   for (std::size_t i = 0; i < arcs.size(); ++i) {
-    if (i + kAhead < arcs.size()) __builtin_prefetch(pool.data() + arcs[i + kAhead].payload.first);
+    if (i + kAhead < arcs.size()) prefetch(pool.data() + arcs[i + kAhead].payload.first);
     const auto payload = pool.subspan(arcs[i].payload.first, arcs[i].payload.size);
     if (!payload.empty()) packed.insert(packed.end(), payload.begin(), payload.end());
   }

@@ -17,11 +17,11 @@ using VertexNumbers = PagedTable<double>;
 //           vector is that of the mesh. A larger mesh is coarsened: ranges of the same number of consecutive vertices
 //           become 50,000 clusters. Two clusters are joined with the number of mesh edges between them as weight. The
 //           vector of that weighted graph is computed, and extended to the vertices by a few Jacobi steps. The time is
-//           that of one sparse factorization of at most 200,000 rows, plus three readings of the triangles per step,
-//           linear in the mesh. Components are chained by weak edges, so that they follow each other.
+//           that of one sparse factorization of at most 200,000 rows, plus a reading of the triangles for each of these
+//           steps. Components are chained by weak edges, so that they follow each other.
 //           Where triangles are in no order, the factors have many more entries than those of a surface. If they do not
 //           fit the budget, two clusters become one, repeatedly.
-// MEMORY: about 1 KiB per row of a surface; what the factors take is known before they are made. Reserved. Three shares
+// MEMORY: about 1 KiB per row of a surface; what the factors take is known before they are made. Reserved. Two shares
 //           for tables of vertices.
 // THROWS: Error{kResource} if not even 64 rows fit.
 VertexNumbers fiedler_vector(IndexedMesh& mesh, Workspace& space);

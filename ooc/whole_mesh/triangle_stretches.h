@@ -16,7 +16,7 @@ namespace reeb::ooc {
 // order, touches each page once. So groups are as long as a share of the memory allows. They are called stretches here.
 //
 // TIME: a hash look-up per corner, and a sort of the distinct vertices if they are far apart.
-// MEMORY: one share, reserved; half a kilobyte per triangle, at least 2 MiB and at most 72 MiB.
+// MEMORY: one share, reserved; half a kilobyte per triangle, at least 2 MiB and at most 64 MiB.
 class TriangleStretches {
  public:
   // Reads the mesh, starting at the first triangle.

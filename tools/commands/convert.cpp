@@ -14,7 +14,6 @@
 #include "tools/program/convert_mesh.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
-#include "tools/program/quantity.h"
 #include "tools/program/wrapping.h"
 
 namespace reeb::tools {
@@ -42,7 +41,7 @@ void run_convert(ConvertArguments arguments) {
   bar.clear();
   if (arguments.quiet) return;
   for (const std::string& note : notes) print_line("note: " + printable(note));
-  fmt::print(stderr, "wrote {}\n", printable(options.output));
+  print_line("wrote " + printable(options.output));
 }
 
 }  // namespace

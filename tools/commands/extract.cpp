@@ -27,7 +27,6 @@
 #include "tools/plot/skeleton.h"
 #include "tools/program/input_kind.h"
 #include "tools/program/output.h"
-#include "tools/program/quantity.h"
 #include "tools/program/whole_levels.h"
 #include "tools/program/wrapping.h"
 
@@ -138,10 +137,10 @@ void extract(const ExtractOptions& options) {
   const FileFlags& flags = file.header().flags;
   if (options.on_surface) require_surface_points(file);
   if (flags.has_embedding && !flags.has_spreads && format == io::GraphFormat::kSwc)
-    fmt::print(stderr,
-               "reeb: warning: {}: this file was written by an earlier version, which did not record radii, so "
-               "they are 0; compute the graph of the mesh again\n",
-               options.file);
+    print_line(
+        fmt::format("reeb: warning: {}: this file was written by an earlier version, which did not record radii, "
+                    "so they are 0; compute the graph of the mesh again",
+                    printable(options.file)));
   if (!options.quiet) note_large_threshold(file, options.level.threshold);
   ooc::Level level = read_part(file, FilePart::kLevel, [&] { return file.load(choose_version(file, options)); });
   ooc::MeasuredArcs measured;

@@ -76,8 +76,8 @@ class Values {
     if (options_.quiet) return;
     for (const std::string& line : reader_->warnings()) print_line("note: " + printable(line));
     for (const std::string& line : field_.notes) print_line("note: " + printable(line));
-    fmt::print(stderr, "wrote {}: {} for {}\n", printable(options_.output), spec_.text,
-               count_of(numbers_.count(), "vertex"));
+    print_line(fmt::format("wrote {}: {} for {}", printable(options_.output), printable(spec_.text),
+                           count_of(numbers_.count(), "vertex")));
   }
 
  private:

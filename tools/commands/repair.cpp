@@ -114,7 +114,7 @@ void apply_undo(const RepairArguments& arguments) {
   for (const std::string& warning : written.warnings) print_line("note: " + printable(warning));
   print_line(fmt::format("{} put back, {} removed", count_of(undo.removed.size(), "triangle"),
                          count_of(undo.new_triangles, "new triangle")));
-  fmt::print(stderr, "wrote {}\n", printable(options.output));
+  print_line("wrote " + printable(options.output));
 }
 
 void run_repair(RepairArguments arguments) {
@@ -150,7 +150,7 @@ void run_repair(RepairArguments arguments) {
   for (const std::string& warning : written.warnings)
     if (std::ranges::find(repair.warnings, warning) == repair.warnings.end()) print_line("note: " + printable(warning));
   for (const std::string& line : summary_of(repair)) print_line(printable(line));
-  fmt::print(stderr, "wrote {}\n", printable(options.output));
+  print_line("wrote " + printable(options.output));
 }
 
 }  // namespace

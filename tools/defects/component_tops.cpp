@@ -1,6 +1,5 @@
 #include "tools/defects/component_tops.h"
 
-#include <algorithm>
 #include <limits>
 #include <span>
 
@@ -39,8 +38,7 @@ std::vector<SettledNode> component_tops(const ValuedMesh& mesh, const LoopFuncti
       if (c == FlatMap::kNone || batch.coordinates[0][i] <= most[c]) continue;
       most[c] = batch.coordinates[0][i];
       tops[c].key = {values[number][i], vertex};
-      for (std::size_t k = 0; k < std::min<std::size_t>(3, batch.coordinates.size()); ++k)
-        tops[c].position[k] = batch.coordinates[k][i];
+      tops[c].position = batch.position(i);
     }
   });
   return tops;

@@ -1,6 +1,5 @@
 #include "tools/library/compute.h"
 
-#include <memory>
 #include <utility>
 
 #include "io/file/atomic_file.h"
@@ -45,7 +44,8 @@ std::vector<ComputeResult> compute_all(const Mesh& mesh_source, const std::strin
   if (snapshots) {
     for (const VertexFunction* function : pointers)
       if (function->needs_lookup())
-        throw Error(ErrorKind::kUsage, "no graph of a part of the mesh has values of " + function->name(),
+        throw Error(ErrorKind::kUsage,
+                    "there can be no snapshots of " + function->name() + ", whose vertex may come late",
                     "name a point: distance:X,Y,Z; or leave snapshots out");
     mesh = input.take_reader();
     mesh.may_resume = false;

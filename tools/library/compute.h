@@ -62,7 +62,7 @@ struct ComputeOptions {
 //          is ever written in part, but those of earlier functions may be there, and the graph alone if its levels did
 //          not fit the memory. Of the last two kinds the hint says whether options.resume can continue.
 // TIME:    about 60 ns a triangle where the order of the mesh is coherent; one or two readings of the file.
-// MEMORY:  tens of MiB for the chunks, and the front of the sweep; with levels also the graph, 91 to 166 bytes an arc.
+// MEMORY:  tens of MiB for the chunks, and the front of the sweep; with levels also the graph, 91 to 167 bytes an arc.
 //          options.memory_bytes bounds it.
 // THREADS: starts options.threads of its own, and may be called by several threads at once for different
 //          outputs.

@@ -11,9 +11,10 @@ namespace reeb {
 
 void check_limits(const ComputeOptions& options) {
   if (!(options.denoise >= 0) || !std::isfinite(options.denoise))
-    throw Error(ErrorKind::kUsage, "the threshold of denoise is not a number from 0 on", "0.001 is 0.1% as a share");
+    throw Error(ErrorKind::kUsage, "denoise is not a finite number of 0 or more", "give a threshold like 0.001");
   if (options.buckets > kMostBuckets)
-    throw Error(ErrorKind::kUsage, "there can be at most " + std::to_string(kMostBuckets) + " buckets", "64 are usual");
+    throw Error(ErrorKind::kUsage, "there can be at most " + std::to_string(kMostBuckets) + " buckets",
+                "choose fewer, for instance 64");
 }
 
 ooc::ComputeOptions run_options(const ComputeOptions& options) {

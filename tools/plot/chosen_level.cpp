@@ -2,7 +2,6 @@
 
 #include <filesystem>
 
-#include "io/plot/value_axis.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/printable.h"
 #include "tools/arguments/options.h"

@@ -213,10 +213,7 @@ class Cleaner {
             const std::uint64_t first = batch.first_vertex.value();
             for (; next != edges.end() && next->first < first + batch.vertex_count; ++next) {
               if (!ends_.empty() && ends_.back().vertex == next->first) continue;
-              Point point{};
-              for (std::size_t k = 0; k < std::min<std::size_t>(3, batch.coordinates.size()); ++k)
-                point[k] = batch.coordinates[k][next->first - first];
-              ends_.push_back({next->first, point});
+              ends_.push_back({next->first, batch.position(next->first - first)});
             }
             progress_(done, total);
           });

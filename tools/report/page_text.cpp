@@ -1,11 +1,12 @@
 #include "tools/report/page_text.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-
 #include <nlohmann/json.hpp>
 
+#include "io/text/base64_encoder.h"
 #include "libreeb/base/printable.h"
 
 namespace reeb::tools {
@@ -53,17 +54,13 @@ std::uint16_t in_65535ths(double value, double min, double half_size) {
 }
 
 std::string base64(std::span<const std::uint16_t> numbers) {
-  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const std::size_t size = 2 * numbers.size();
-  const auto byte = [&](std::size_t i) -> std::uint32_t {
-    return i < size ? (std::uint32_t{numbers[i / 2]} >> (8 * (i % 2))) & 0xffu : 0u;
-  };
   std::string out;
-  out.reserve((size + 2) / 3 * 4);
-  for (std::size_t i = 0; i < size; i += 3) {
-    const std::uint32_t bits = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
-    for (std::size_t k = 0; k < 4; ++k) out += i + k <= size ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
+  io::Base64Encoder encoder([&](std::string_view digits) { out += digits; });
+  for (const std::uint16_t number : numbers) {
+    encoder.put(static_cast<std::uint8_t>(number & 0xff));
+    encoder.put(static_cast<std::uint8_t>(number >> 8));
   }
+  encoder.finish();
   return out;
 }
 
