@@ -81,10 +81,11 @@ mapfile -t commands < <("$reeb" --help | items Commands | cut -f1)
 page "" >"$out/man/reeb.1"
 for command in "${commands[@]}"; do page "$command" >"$out/man/reeb-$command.1"; done
 
-# A few processes for each command, not for each option: those took half a minute.
+# The program is asked once for each command.
 declare -A options_of
 for command in "${commands[@]}"; do options_of[$command]=$("$reeb" "$command" --help | items Options); done
 options() { echo "${options_of[$1]}"; }
+
 # What the completion of bash knows of a command: its options, those with a value, and those whose value is a file.
 words_of() {
   options "$1" | awk -F '\t' '

@@ -102,7 +102,7 @@ class ImageReader final : public GridReader {
     const auto size = source.size();
     if (!size || image_.packing != Packing::kPlain)
       throw Error(ErrorKind::kBadInput,
-                  "the header says that the data are the last bytes, but how many bytes there are is not known",
+                  "the header says that the data are the last bytes of a file whose size is not known",
                   "unpack the file, or give the number of bytes to skip")
           .at(name_);
     const std::uint64_t bytes = values_ * byte_size(image_.type);

@@ -171,6 +171,7 @@ std::vector<double> loop_ranges(const ReebGraph& graph) {
     if (forest.connected(lo, hi)) {
       const std::uint32_t lightest = forest.lightest(lo, hi), other = lightest - nodes;
       const std::uint32_t bottom = std::min(lo, graph.lo[other].value());
+      // Infinity stands for no cycle.
       const double range =
           std::min(graph.nodes[hi].value - graph.nodes[bottom].value, std::numeric_limits<double>::max());
       forest.lower(lo, hi, range);

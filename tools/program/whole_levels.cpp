@@ -8,6 +8,8 @@
 #include <ranges>
 #include <string>
 
+#include "libreeb/base/printable.h"
+
 namespace reeb::tools {
 namespace {
 
@@ -74,7 +76,7 @@ const LevelLine* finest_whole_level(const ooc::ReebFile& file) {
 }
 
 void warn_of_damage(const ooc::ReebFile& file) {
-  if (const Error* damage = file.damage()) fmt::print(stderr, "reeb: warning: {}\n", damage->what());
+  if (const Error* damage = file.damage()) fmt::print(stderr, "reeb: warning: {}\n", printable(damage->what()));
 }
 
 bool meets_missing_part(const ooc::ReebFile& file, const Error& error) {

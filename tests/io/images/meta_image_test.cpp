@@ -109,7 +109,7 @@ TEST(MetaImage, BadFilesAreRefused) {
             "bad.mhd: the data file \"/etc/passwd\" is not in the folder of the header");
   EXPECT_EQ(error(meta("MET_UCHAR", "", "missing.raw")).substr(0, 12), "missing.raw:");
   EXPECT_EQ(error(meta("MET_UCHAR", "HeaderSize = -1\nCompressedData = True\n") + kBytes),
-            "bad.mhd: the header says that the data are the last bytes, but how many bytes there are is not known");
+            "bad.mhd: the header says that the data are the last bytes of a file whose size is not known");
 }
 
 }  // namespace
