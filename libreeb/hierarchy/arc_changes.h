@@ -22,6 +22,12 @@ struct ArcCut {
   NodeId start, node, end;
 };
 
+// Two arcs that become one, `lower`, from `lo` to `hi`. They meet at `node`, which is contracted.
+struct ArcJoin {
+  ArcId upper, lower;
+  NodeId lo, node, hi;
+};
+
 // A part of an arc: from `start` in `direction` to `end`.
 struct ArcPart {
   Direction direction;
@@ -65,7 +71,7 @@ struct IgnoreContent {
   void prefetch(ArcId /*arc*/) const {}
 };
 
-// Writes the changes at once. `ends` are those that an arc has when the function is called.
+// Writes the changes at once. Ends of an arc are those that it has when the function is called.
 //
 // MEMORY: as VersionLog and the content.
 template <class ContentKind, class Graph>
@@ -81,24 +87,40 @@ class ArcChanges {
   Content& content() { return content_; }
   const Content& content() const { return content_; }
 
-  // To be called before an arc is moved or removed.
+  // The arc is to be moved, or removed without regard to its content.
   void touch(ArcId arc, const ArcEnds& ends) { log_.touch(arc, ends); }
 
-  // The content, as in IgnoreContent. Arcs that get content are touched.
-  void cut(const ArcCut& cut, const ArcEnds& ends_of_into) {
+  // A part of the content of `from` is moved, but not yet the arc.
+  void cut_content(const ArcCut& cut, const ArcEnds& ends_of_into) {
     if (content_.cut(cut)) log_.touch(cut.into, ends_of_into);
+  }
+
+  // These are done to the content, as IgnoreContent says, and are to be done to the arcs.
+  void cut(const ArcCut& cut, const ArcEnds& ends_of_into) {
+    cut_content(cut, ends_of_into);
+    log_.touch(cut.from, ends_along(cut.direction, cut.start, cut.end));
   }
   double first_value(const ArcPart& part) { return content_.first_value(part); }
   bool is_reached(double value, Direction d, NodeId node) const { return content_.is_reached(value, d, node); }
-  void merge(ArcId from, ArcId into, const ArcEnds& ends_of_into) {
-    if (content_.merge(from, into)) log_.touch(into, ends_of_into);
+  void merge(ArcId from, ArcId into, const ArcEnds& ends_of_both) {
+    if (content_.merge(from, into)) log_.touch(into, ends_of_both);
+    log_.touch(from, ends_of_both);
   }
-  void join(ArcId upper, ArcId lower, NodeId node) { content_.join(upper, lower, node); }
-  void lay(ArcId arc, ArcId other, NodeId extremum, Direction d, const ArcEnds& ends_of_other) {
+  void join(const ArcJoin& join) {
+    content_.join(join.upper, join.lower, join.node);
+    log_.touch(join.upper, {join.node, join.hi});
+    log_.touch(join.lower, {join.lo, join.node});
+  }
+  // The extremum is the end of the arc in direction d.
+  void lay(ArcId arc, const ArcEnds& ends, ArcId other, const ArcEnds& ends_of_other, Direction d) {
+    content_.lay(arc, other, d == kUp ? ends.hi : ends.lo, d);
+    log_.touch(arc, ends);
     log_.touch(other, ends_of_other);
-    content_.lay(arc, other, extremum, d);
   }
-  void drop(ArcId arc, std::uint32_t nodes) { content_.drop(arc, nodes); }
+  void drop(ArcId arc, const ArcEnds& ends, std::uint32_t nodes) {
+    content_.drop(arc, nodes);
+    log_.touch(arc, ends);
+  }
 
   // Ends the step, and with it the records of the arcs that were touched.
   void commit() { log_.commit(content_); }

@@ -142,14 +142,13 @@ class Canceller {
 
   // Zips the two paths, which go in direction d.
   void zip(Direction d);
+  // changes_ was told before.
   void move_start(Direction d, ArcId arc, NodeId node) {
-    changes_.touch(arc, ends(arc));
     note_ends(arc);
     graph_.move_end(arc, opposite(d), node);
     ways_.note(node, d);
   }
   void remove(ArcId arc) {
-    changes_.touch(arc, ends(arc));
     note_ends(arc);
     graph_.remove(arc);
   }
@@ -189,19 +188,22 @@ void Canceller<Content, Graph, ChangesKind>::zip_onto(Direction d, ArcId arc, Ar
     const ArcId next = graph_.nearest(end, d);
     if (end == extremum && graph_.has_one(extremum, opposite(d))) break;
     follow_in_parallel(d, arc, other, start, end);
-    if (graph_.end(arc, opposite(d)) != start) move_start(d, arc, start);
+    if (graph_.end(arc, opposite(d)) != start) {
+      changes_.touch(arc, ends(arc));
+      move_start(d, arc, start);
+    }
     cut(d, other, arc, end);
     if (end == extremum) return;
     start = end;
     arc = next;
   }
-  if constexpr (Content::kFollows) {
-    if (follow_in_parallel(d, arc, other, start, extremum, Content::kMostArcsOfExtremum)) {
-      changes_.lay(arc, other, extremum, d, ends(other));
-    } else {
-      changes_.drop(arc, 1);
-    }
-  }
+  bool goes_beside = false;
+  if constexpr (Content::kFollows)
+    goes_beside = follow_in_parallel(d, arc, other, start, extremum, Content::kMostArcsOfExtremum);
+  if (goes_beside)
+    changes_.lay(arc, ends(arc), other, ends(other), d);
+  else
+    changes_.drop(arc, ends(arc), 1);
   remove(arc);
 }
 
@@ -222,7 +224,7 @@ bool Canceller<Content, Graph, ChangesKind>::follow_in_parallel(Direction d, Arc
   for (NodeId node = graph_.end(passed, d); along(d, node) < along(d, end); node = graph_.next(from, d)) {
     if (most != kAny && most-- == 0) return false;
     if (changes_.is_reached(first, d, node)) {
-      changes_.cut({d, arc, passed, left.start, node, end}, ends(passed));
+      changes_.cut_content({d, arc, passed, left.start, node, end}, ends(passed));
       left.start = node;
       first = changes_.first_value(left);
     }
@@ -254,7 +256,7 @@ bool Canceller<Content, Graph, ChangesKind>::note_in_parallel(Direction d, ArcId
       changes_.end_path();
       return false;
     }
-    changes_.pass(d, passed, d == kUp ? ArcEnds{from, node} : ArcEnds{node, from});
+    changes_.pass(d, passed, ends_along(d, from, node));
     from = node;
     passed = graph_.nearest(from, d);
   }
@@ -284,8 +286,8 @@ void Canceller<Content, Graph, ChangesKind>::take_away(ArcId arc) {
       paths_.second.assign(1, arc);
       return zip(kUp);
     }
-    changes_.drop(arc, 0);
   }
+  changes_.drop(arc, ends(arc), 0);
   remove(arc);
 }
 
@@ -314,7 +316,7 @@ void Canceller<Content, Graph, ChangesKind>::contract(NodeId node) {
   if (!graph_.is_regular(node)) return;
   const ArcId lower = graph_.nearest(node, kDown), upper = graph_.nearest(node, kUp);
   const NodeId end = graph_.end(upper, kUp);
-  changes_.join(upper, lower, node);
+  changes_.join({upper, lower, graph_.end(lower, kDown), node, end});
   remove(upper);
   move_start(kDown, lower, end);
 }

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "libreeb/graph/direction.h"
 #include "libreeb/hierarchy/hierarchy.h"
 #include "libreeb/hierarchy/working_graph.h"
 #include "libreeb/port/record_sink.h"
@@ -15,6 +16,9 @@ namespace reeb {
 struct ArcEnds {
   NodeId lo, hi;
 };
+inline ArcEnds ends_along(Direction d, NodeId start, NodeId end) {
+  return d == kUp ? ArcEnds{start, end} : ArcEnds{end, start};
+}
 
 // Collects the arcs that a step changes. When a record ends, it goes to a sink, with the content that the arc had
 // before the step. Without content (arc_changes.h), an arc with the same ends before and after a step keeps its record,
