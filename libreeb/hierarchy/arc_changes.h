@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "libreeb/graph/direction.h"
 #include "libreeb/graph/reeb_graph.h"
@@ -124,8 +125,11 @@ class ArcChanges {
 
   // Ends the step, and with it the records of the arcs that were touched.
   void commit() { log_.commit(content_); }
-  // Writes the records of the last version. To be called once, at the end.
-  void finish() { log_.finish(content_); }
+  // Writes the records of the last version, as VersionLog. To be called once, at the end.
+  template <class LivingArcOf>
+  void finish(std::vector<ArcId> arcs, const LivingArcOf& living_arc_of) {
+    log_.finish(content_, std::move(arcs), living_arc_of);
+  }
 
   // A node; where an arc's record and content are stored; the content.
   void prefetch_node(NodeId node) const { content_.prefetch_node(node); }

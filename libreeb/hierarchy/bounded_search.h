@@ -72,6 +72,12 @@ class BoundedSearch {
     }
   }
 
+  // To be called when the graph has renumbered its nodes. Nothing is reached then.
+  void restart() {
+    reached_.assign(graph_.end_node().value(), 0);
+    search_ = 0;
+  }
+
   void prefetch(NodeId node) const { graph_.tables().prefetch(reached_, node); }
   bool reached(NodeId node) const { return reached_[node] == search_; }
 

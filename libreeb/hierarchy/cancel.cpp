@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "libreeb/base/prefetch.h"
+#include "libreeb/containers/kept_ids.h"
 #include "libreeb/graph/packed_buckets.h"
 #include "libreeb/hierarchy/bucket_versions.h"
 #include "libreeb/hierarchy/canceller.h"
@@ -22,51 +25,84 @@ void release_arcs(ReebGraph& graph) {
   graph.hi = std::vector<NodeId>();
 }
 
+constexpr std::size_t kTurns = 4, kStages = 9;  // pairs from one stage of prefetching to the next
+
 // Pairs that are near in persistence can be anywhere in memory. Without prefetching, each would wait for memory many
 // times.
 template <class Canceller>
-void prefetch(const ReebGraph& graph, const Canceller& canceller, const std::vector<PersistencePair>& pairs,
-              std::size_t at) {
-  constexpr std::size_t kTurns = 4, kStages = 9;  // pairs from one stage to the next
-  if (at + kStages * kTurns >= pairs.size()) return;
-  for (const NodeId node : {pairs[at + kTurns].lo, pairs[at + kTurns].hi}) reeb::prefetch(&graph.nodes[node.value()]);
-  canceller.prefetch_nodes(pairs[at + 9 * kTurns]);
-  canceller.prefetch_arcs(pairs[at + 8 * kTurns]);
-  canceller.prefetch_neighbours(pairs[at + 7 * kTurns]);
-  canceller.prefetch_next(pairs[at + 6 * kTurns]);
-  canceller.prefetch_beyond(pairs[at + 5 * kTurns]);
-  for (std::size_t nodes = 1; nodes <= 4; ++nodes) canceller.prefetch_path(pairs[at + (5 - nodes) * kTurns], nodes);
+void prefetch(const Canceller& canceller, std::span<const PersistencePair> pairs) {
+  if (pairs.size() <= kStages * kTurns) return;
+  canceller.prefetch_nodes(pairs[9 * kTurns]);
+  canceller.prefetch_arcs(pairs[8 * kTurns]);
+  canceller.prefetch_neighbours(pairs[7 * kTurns]);
+  canceller.prefetch_next(pairs[6 * kTurns]);
+  canceller.prefetch_beyond(pairs[5 * kTurns]);
+  for (std::size_t nodes = 1; nodes <= 4; ++nodes) canceller.prefetch_path(pairs[(5 - nodes) * kTurns], nodes);
 }
 
 // Cancels the pairs of a hierarchy one by one.
 template <class Canceller>
 class Cancelling {
  public:
-  Cancelling(const ReebGraph& graph, Canceller& canceller, Hierarchy& hierarchy)
-      : graph_(graph), canceller_(canceller), hierarchy_(hierarchy) {
+  Cancelling(const ReebGraph& graph, Canceller& canceller, Hierarchy& hierarchy, std::size_t shrink)
+      : graph_(graph),
+        canceller_(canceller),
+        hierarchy_(hierarchy),
+        left_(all_but_components(hierarchy.pairs)),
+        shrink_(shrink),
+        numbered_(left_.size() / shrink) {
     hierarchy.persistence.reserve(hierarchy.pairs.size());
   }
 
-  bool is_over() const { return next_ == hierarchy_.pairs.size() || hierarchy_.pairs[next_].type == PairType::kExt0; }
+  bool is_over() const { return left_.empty(); }
   double done() const { return static_cast<double>(next_) / static_cast<double>(hierarchy_.pairs.size()); }
   void cancel_next() {
-    PersistencePair& pair = hierarchy_.pairs[next_];
-    prefetch(graph_, canceller_, hierarchy_.pairs, next_++);
-    pair.kept = !canceller_.cancel(pair);
+    if constexpr (Canceller::Changes::Content::kFollows) {
+      if (left_.size() < numbered_ / shrink_) compact();
+    }
+    if (left_.size() > kTurns)
+      for (const NodeId node : {hierarchy_.pairs[next_ + kTurns].lo, hierarchy_.pairs[next_ + kTurns].hi})
+        reeb::prefetch(&graph_.nodes[node.value()]);
+    prefetch(canceller_, left_);
+    PersistencePair& pair = hierarchy_.pairs[next_++];
+    pair.kept = !canceller_.cancel(left_.front());
+    left_ = left_.subspan(1);
     if (!pair.kept) hierarchy_.persistence.push_back(persistence_of(graph_, pair));
   }
 
  private:
+  static std::span<const PersistencePair> all_but_components(std::span<const PersistencePair> pairs) {
+    const auto end =
+        std::ranges::find_if(pairs, [](const PersistencePair& pair) { return pair.type == PairType::kExt0; });
+    return pairs.first(static_cast<std::size_t>(end - pairs.begin()));
+  }
+
+  // WHY. The longest paths are followed near the end, when a few nodes are left among the places of many. Then each
+  // step would wait for memory, and nothing can be prefetched.
+  void compact() {
+    const KeptIds nodes = canceller_.compact();
+    const auto now = [&nodes](NodeId node) { return NodeId(nodes.rank(node.value())); };
+    std::vector<PersistencePair> pairs(left_.begin(), left_.end());
+    for (PersistencePair& pair : pairs) pair = {now(pair.lo), now(pair.hi), pair.type};
+    renumbered_ = std::move(pairs);
+    left_ = renumbered_;
+    numbered_ = left_.size();
+  }
+
   const ReebGraph& graph_;
   Canceller& canceller_;
   Hierarchy& hierarchy_;
-  std::size_t next_ = 0;
+  std::size_t next_ = 0;                     // in hierarchy_.pairs
+  std::span<const PersistencePair> left_;    // those from there on, in the numbers of the canceller
+  std::vector<PersistencePair> renumbered_;  // what left_ is part of, once the canceller has numbers of its own
+  std::size_t shrink_, numbered_;            // compact() is called when fewer than numbered_ / shrink_ are left
 };
 
 template <class Canceller>
-void cancel_all(const ReebGraph& graph, Canceller& canceller, Hierarchy& hierarchy, const Poll& poll) {
+void cancel_all(const ReebGraph& graph, Canceller& canceller, Hierarchy& hierarchy, std::size_t shrink,
+                const Poll& poll) {
   constexpr std::size_t kPairsBetweenPolls = 1024;
-  Cancelling pairs(graph, canceller, hierarchy);
+  Cancelling pairs(graph, canceller, hierarchy, shrink);
   for (std::size_t i = 0; !pairs.is_over(); ++i) {
     if (poll && i % kPairsBetweenPolls == 0) poll(pairs.done());
     pairs.cancel_next();
@@ -77,10 +113,10 @@ void cancel_all(const ReebGraph& graph, Canceller& canceller, Hierarchy& hierarc
 // The same in two threads: the rules run ahead in the other one.
 template <class Canceller>
 void cancel_ahead(const ReebGraph& graph, Canceller& canceller, Hierarchy& hierarchy, const Poll& poll,
-                  const DoBoth& both, RingTurns& turns, const RunAhead& limits) {
+                  const HierarchyWork& work, const RunAhead& limits) {
   using Changes = typename Canceller::Changes;
   Changes& changes = canceller.changes();
-  changes.start(turns, limits, canceller.graph().end_arc().value());
+  changes.start(*work.turns, limits, canceller.graph().end_arc().value());
   const auto apply = [&] { changes.apply(poll); };
   const auto run_ahead = [&] {
     struct CloseAtEnd {
@@ -88,12 +124,12 @@ void cancel_ahead(const ReebGraph& graph, Canceller& canceller, Hierarchy& hiera
       ~CloseAtEnd() { changes.close(); }
     } const close{changes};
     try {
-      for (Cancelling pairs(graph, canceller, hierarchy); !pairs.is_over(); changes.set_done(pairs.done()))
+      for (Cancelling pairs(graph, canceller, hierarchy, work.shrink); !pairs.is_over(); changes.set_done(pairs.done()))
         pairs.cancel_next();
     } catch (const typename Changes::Stopped&) {  // by an exception that apply() throws
     }
   };
-  both(apply, run_ahead);
+  work.both(apply, run_ahead);
   canceller.finish();
 }
 
@@ -163,17 +199,17 @@ Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, R
   release_arcs(graph);
   if (buckets.size() == 0) {
     Canceller<> canceller(std::move(*working), sink);
-    cancel_all(graph, canceller, hierarchy, cancelling);
+    cancel_all(graph, canceller, hierarchy, work.shrink, cancelling);
     return hierarchy;
   }
   BucketVersions versions(NodesInMemory(graph), std::move(buckets), exponent, sink);
   if (!both || work.turns == nullptr) {
     Canceller canceller(std::move(*working), sink, std::move(versions));
-    cancel_all(graph, canceller, hierarchy, cancelling);
+    cancel_all(graph, canceller, hierarchy, work.shrink, cancelling);
     return hierarchy;
   }
   Canceller<BucketVersions<>, WorkingGraph, DeferredChanges> canceller(std::move(*working), sink, std::move(versions));
-  cancel_ahead(graph, canceller, hierarchy, cancelling, both, *work.turns, limits);
+  cancel_ahead(graph, canceller, hierarchy, cancelling, work, limits);
   return hierarchy;
 }
 

@@ -1,6 +1,7 @@
 // All levels of detail of a Reeb graph at once (docs/SEMANTICS.md, Cancelling and Levels).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -25,6 +26,9 @@ struct HierarchyWork {
   DoBoth both = {};
   RingTurns* turns = nullptr;          // with it, two threads cancel: `both` must run its functions at the same time
   std::optional<RunAhead> ahead = {};  // nothing: RunAhead::for_arcs()
+  // With an embedding, nodes and arcs that are left move together in memory when 1 / shrink^2 of the pairs is left, and
+  // each time that 1 / shrink of these is.
+  std::size_t shrink = 4;
 };
 
 // Pairs the nodes, and cancels all pairs but Ext0 in the order of cancelling. The arc records, with the versions in

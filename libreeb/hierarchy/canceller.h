@@ -6,7 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
+#include "libreeb/containers/id_vector.h"
+#include "libreeb/containers/kept_ids.h"
 #include "libreeb/hierarchy/arc_changes.h"
 #include "libreeb/hierarchy/hierarchy.h"
 #include "libreeb/hierarchy/path_follower.h"
@@ -15,7 +18,7 @@
 
 namespace reeb {
 
-// MEMORY: 36 bytes per arc and 33 bytes per node.
+// MEMORY: 36 bytes per arc and 33 bytes per node; after compact(), 4 more for each that is left.
 template <class Content = IgnoreContent, class Graph = WorkingGraph,
           template <class, class> class ChangesKind = ArcChanges>
 class Canceller {
@@ -63,14 +66,14 @@ class Canceller {
   void prefetch_neighbours(const PersistencePair& pair) const {
     for_nearest(pair, [&](ArcId arc, NodeId end, Direction /*d*/) {
       graph_.prefetch_arcs(end);
-      changes_.prefetch_content(arc);
+      changes_.prefetch_content(full(arc));
     });
     for_next(pair, [&](ArcId arc, Direction /*d*/) { prefetch_arc(arc); });
   }
   void prefetch_next(const PersistencePair& pair) const {
     for_next(pair, [&](ArcId arc, Direction d) {
       prefetch_node(graph_.end(arc, d));
-      changes_.prefetch_content(arc);
+      changes_.prefetch_content(full(arc));
     });
   }
   void prefetch_beyond(const PersistencePair& pair) const {
@@ -97,8 +100,26 @@ class Canceller {
   const Graph& graph() const { return graph_; }
   const Content& content() const { return changes_.content(); }
   Changes& changes() { return changes_; }
+
+  // Gives the nodes and arcs that are left their ranks as numbers, so that they are near each other in memory. From
+  // then on, pairs are given in these numbers. Returns the nodes that are left. The records are the same. REQUIRES:
+  // there is content.
+  KeptIds compact() {
+    typename Graph::Left left = graph_.compact();
+    search_.renumber(left.nodes);
+    ways_.restart();
+    keep_full(full_nodes_, left.nodes);
+    keep_full(full_arcs_, left.arcs);
+    return std::move(left.nodes);
+  }
+
   // Writes the records of the last version. REQUIRES: nothing is cancelled afterwards.
-  void finish() { changes_.finish(); }
+  void finish() {
+    std::vector<ArcId> arcs;
+    for (ArcId arc; arc < graph_.end_arc(); ++arc)
+      if (graph_.alive(arc)) arcs.push_back(arc);
+    changes_.finish(std::move(arcs), [this](ArcId arc) { return LivingArc{full(arc), full_ends(arc)}; });
+  }
 
  private:
   static constexpr ArcId kNone = Graph::kNone;
@@ -118,11 +139,11 @@ class Canceller {
   void prefetch_node(NodeId node) const {
     graph_.prefetch_node(node);
     ways_.prefetch(node);
-    changes_.prefetch_node(node);
+    changes_.prefetch_node(full(node));
   }
   void prefetch_arc(ArcId arc) const {
     graph_.prefetch_arc(arc);
-    changes_.prefetch_place(arc);
+    changes_.prefetch_place(full(arc));
   }
   // Calls visit(arc, far end, d) for the nearest arc of each node of the pair in each direction d.
   template <class Visit>
@@ -142,7 +163,21 @@ class Canceller {
 
   // Zips the two paths, which go in direction d.
   void zip(Direction d);
-  // changes_ was told before.
+
+  // The number in the full graph, by which changes_ knows a node or an arc.
+  NodeId full(NodeId node) const { return full_nodes_.empty() ? node : full_nodes_[node]; }
+  ArcId full(ArcId arc) const { return full_arcs_.empty() ? arc : full_arcs_[arc]; }
+  ArcEnds full_ends(ArcId arc) const { return {full(graph_.end(arc, kDown)), full(graph_.end(arc, kUp))}; }
+  template <class Id>
+  static void keep_full(IdVector<Id, Id>& full, const KeptIds& kept) {
+    IdVector<Id, Id> left;
+    left.reserve(kept.count());
+    for (std::uint32_t id = 0; left.size() < kept.count(); ++id)
+      if (kept.has(id)) left.add(full.empty() ? Id(id) : full[Id(id)]);
+    full = std::move(left);
+  }
+
+  // REQUIRES: changes_ was told.
   void move_start(Direction d, ArcId arc, NodeId node) {
     note_ends(arc);
     graph_.move_end(arc, opposite(d), node);
@@ -152,17 +187,17 @@ class Canceller {
     note_ends(arc);
     graph_.remove(arc);
   }
-  ArcEnds ends(ArcId arc) const { return {graph_.end(arc, kDown), graph_.end(arc, kUp)}; }
   void note_ends(ArcId arc) {
     ways_.note(graph_.end(arc, kDown), kUp);
     ways_.note(graph_.end(arc, kUp), kDown);
   }
   void cut(Direction d, ArcId from, ArcId into, NodeId node) {
-    changes_.cut({d, from, into, graph_.end(from, opposite(d)), node, graph_.end(from, d)}, ends(into));
+    const NodeId start = graph_.end(from, opposite(d)), end = graph_.end(from, d);
+    changes_.cut({d, full(from), full(into), full(start), full(node), full(end)}, full_ends(into));
     move_start(d, from, node);
   }
   void merge(ArcId from, ArcId into) {
-    changes_.merge(from, into, ends(into));
+    changes_.merge(full(from), full(into), full_ends(into));
     remove(from);
   }
   void contract(NodeId node);
@@ -172,6 +207,8 @@ class Canceller {
   PathFollower<Graph> ways_;
   TwoPaths paths_;  // to be zipped
   Changes changes_;
+  IdVector<NodeId, NodeId> full_nodes_;  // empty if the numbers are those of the full graph
+  IdVector<ArcId, ArcId> full_arcs_;
 };
 
 // ---- extrema
@@ -189,7 +226,7 @@ void Canceller<Content, Graph, ChangesKind>::zip_onto(Direction d, ArcId arc, Ar
     if (end == extremum && graph_.has_one(extremum, opposite(d))) break;
     follow_in_parallel(d, arc, other, start, end);
     if (graph_.end(arc, opposite(d)) != start) {
-      changes_.touch(arc, ends(arc));
+      changes_.touch(full(arc), full_ends(arc));
       move_start(d, arc, start);
     }
     cut(d, other, arc, end);
@@ -201,9 +238,9 @@ void Canceller<Content, Graph, ChangesKind>::zip_onto(Direction d, ArcId arc, Ar
   if constexpr (Content::kFollows)
     goes_beside = follow_in_parallel(d, arc, other, start, extremum, Content::kMostArcsOfExtremum);
   if (goes_beside)
-    changes_.lay(arc, ends(arc), other, ends(other), d);
+    changes_.lay(full(arc), full_ends(arc), full(other), full_ends(other), d);
   else
-    changes_.drop(arc, ends(arc), 1);
+    changes_.drop(full(arc), full_ends(arc), 1);
   remove(arc);
 }
 
@@ -212,7 +249,7 @@ void Canceller<Content, Graph, ChangesKind>::zip_onto(Direction d, ArcId arc, Ar
 template <class Content, class Graph, template <class, class> class ChangesKind>
 bool Canceller<Content, Graph, ChangesKind>::follow_in_parallel(Direction d, ArcId arc, ArcId& other, NodeId& start,
                                                                 NodeId end, std::uint32_t most) {
-  ArcPart left{d, arc, start, end};  // the part whose content was not moved yet
+  ArcPart left{d, full(arc), full(start), full(end)};  // the part whose content was not moved yet
   if constexpr (Changes::kDefers) {
     if (note_in_parallel(d, arc, other, start, end, most)) return true;
     if (most != kAny) return false;
@@ -223,13 +260,13 @@ bool Canceller<Content, Graph, ChangesKind>::follow_in_parallel(Direction d, Arc
   double first = changes_.first_value(left);
   for (NodeId node = graph_.end(passed, d); along(d, node) < along(d, end); node = graph_.next(from, d)) {
     if (most != kAny && most-- == 0) return false;
-    if (changes_.is_reached(first, d, node)) {
-      changes_.cut_content({d, arc, passed, left.start, node, end}, ends(passed));
-      left.start = node;
+    if (changes_.is_reached(first, d, full(node))) {
+      changes_.cut_content({d, left.arc, full(passed), left.start, full(node), left.end}, full_ends(passed));
+      left.start = full(node);
       first = changes_.first_value(left);
     }
     from = most != kAny ? node : ways_.follow(node, d, [&](NodeId next) {
-      return along(d, next) < along(d, end) && !changes_.is_reached(first, d, next);
+      return along(d, next) < along(d, end) && !changes_.is_reached(first, d, full(next));
     });
     passed = graph_.nearest(from, d);
   }
@@ -242,7 +279,7 @@ bool Canceller<Content, Graph, ChangesKind>::follow_in_parallel(Direction d, Arc
 template <class Content, class Graph, template <class, class> class ChangesKind>
 bool Canceller<Content, Graph, ChangesKind>::note_in_parallel(Direction d, ArcId arc, ArcId& other, NodeId& start,
                                                               NodeId end, std::uint32_t most) {
-  changes_.begin_path({d, arc, start, end});
+  changes_.begin_path({d, full(arc), full(start), full(end)});
   ArcId passed = other;
   NodeId from = start;
   std::uint32_t arcs = 0;
@@ -256,7 +293,7 @@ bool Canceller<Content, Graph, ChangesKind>::note_in_parallel(Direction d, ArcId
       changes_.end_path();
       return false;
     }
-    changes_.pass(d, passed, ends_along(d, from, node));
+    changes_.pass(d, full(passed), full_ends(passed));
     from = node;
     passed = graph_.nearest(from, d);
   }
@@ -287,7 +324,7 @@ void Canceller<Content, Graph, ChangesKind>::take_away(ArcId arc) {
       return zip(kUp);
     }
   }
-  changes_.drop(arc, ends(arc), 0);
+  changes_.drop(full(arc), full_ends(arc), 0);
   remove(arc);
 }
 
@@ -316,7 +353,7 @@ void Canceller<Content, Graph, ChangesKind>::contract(NodeId node) {
   if (!graph_.is_regular(node)) return;
   const ArcId lower = graph_.nearest(node, kDown), upper = graph_.nearest(node, kUp);
   const NodeId end = graph_.end(upper, kUp);
-  changes_.join({upper, lower, graph_.end(lower, kDown), node, end});
+  changes_.join({full(upper), full(lower), full(graph_.end(lower, kDown)), full(node), full(end)});
   remove(upper);
   move_start(kDown, lower, end);
 }

@@ -79,7 +79,10 @@ class DeferredChanges {
   // poll and the sink throw.
   void apply(const Poll& poll);
   // REQUIRES: apply() has returned.
-  void finish() { now_.finish(); }
+  template <class LivingArcOf>
+  void finish(std::vector<ArcId> arcs, const LivingArcOf& living_arc_of) {
+    now_.finish(std::move(arcs), living_arc_of);
+  }
 
   // For the thread of the rules: the part of the work that was noted; and that nothing more is noted.
   void set_done(double done) { done_ = done; }

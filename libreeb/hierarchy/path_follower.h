@@ -36,6 +36,12 @@ class PathFollower {
   // Takes the noted changes into account, and forgets them. To be called from time to time, since they take memory
   // until then.
   void apply_changes();
+  // To be called when the graph has renumbered its nodes. Forgets all sections and changes.
+  void restart() {
+    section_of_.assign(graph_.end_node().value(), {kNoSection, kNoSection});
+    exits_.resize(1);
+    changed_.clear();
+  }
 
   void prefetch(NodeId node) const { graph_.tables().prefetch(section_of_, node); }
 
@@ -78,16 +84,19 @@ NodeId PathFollower<Graph>::follow(NodeId node, Direction d, Passes passes) {
       followed_.push_back(node);
     } else {
       keep_followed(node, d);
-      if (passes(exit)) {
-        node = exit;
-        continue;
-      }
+      if (!passes(exit)) break;
+      node = exit;
+      continue;
     }
     const NodeId to = graph_.next(node, d);
-    if (to == kNone || !passes(to)) break;
+    if (to == kNone || !passes(to)) {
+      keep_followed(node, d);
+      return node;
+    }
     node = to;
   }
-  keep_followed(node, d);
+  // The last node is before this exit, so sections are of no more use.
+  for (NodeId to = graph_.next(node, d); to != kNone && passes(to); to = graph_.next(to, d)) node = to;
   return node;
 }
 

@@ -15,6 +15,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "libreeb/containers/kept_ids.h"
 #include "libreeb/hierarchy/bounded_search.h"
 #include "libreeb/hierarchy/working_graph.h"
 
@@ -38,6 +39,18 @@ class PathSearch {
   void note_kept(NodeId v, NodeId y) {
     kept_[kUp][v.value()] = true;
     kept_[kDown][y.value()] = true;
+  }
+
+  // To be called when the graph has renumbered its nodes.
+  void renumber(const KeptIds& nodes) {
+    for (std::vector<bool>& kept : kept_) {
+      // No number rises.
+      for (std::uint32_t node = 0; node < kept.size(); ++node)
+        if (nodes.has(node)) kept[nodes.rank(node)] = kept[node];
+      kept.resize(nodes.count());
+    }
+    ahead_.restart();
+    back_.restart();
   }
 
   // For a pair of `fork` with the extremum that is its partner in direction d: of the arcs of the fork in this

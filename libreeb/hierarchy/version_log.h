@@ -20,6 +20,12 @@ inline ArcEnds ends_along(Direction d, NodeId start, NodeId end) {
   return d == kUp ? ArcEnds{start, end} : ArcEnds{end, start};
 }
 
+// An arc of the last version, by its number in the full graph.
+struct LivingArc {
+  ArcId arc;
+  ArcEnds ends;
+};
+
 // Collects the arcs that a step changes. When a record ends, it goes to a sink, with the content that the arc had
 // before the step. Without content (arc_changes.h), an arc with the same ends before and after a step keeps its record,
 // even if the step cut it and joined it again. With content, every touched arc starts a new record.
@@ -58,14 +64,19 @@ class VersionLog {
     ++step_;
   }
 
-  // Passes on the arcs of the last version. To be called once, at the end.
-  template <class Content>
-  void finish(const Content& content) {
-    std::vector<ArcId> arcs;
-    for (ArcId arc; arc < graph_.end_arc(); ++arc)
-      if (graph_.alive(arc)) arcs.push_back(arc);
-    std::sort(arcs.begin(), arcs.end(), [this](ArcId a, ArcId b) { return in_order({record(b), b}, {record(a), a}); });
-    for (const ArcId arc : arcs) sink_.add(record(arc), content.before_step(arc));
+  // Passes on the arcs of the last version. To be called once, at the end. `arcs` have any numbers; living_arc_of()
+  // has the arc of each.
+  template <class Content, class LivingArcOf>
+  void finish(const Content& content, std::vector<ArcId> arcs, const LivingArcOf& living_arc_of) {
+    const auto present = [&](ArcId number) -> Ended {
+      const auto [arc, ends] = living_arc_of(number);
+      return {{ends.lo, ends.hi, std::as_const(born_)[arc]}, arc};
+    };
+    std::sort(arcs.begin(), arcs.end(), [&](ArcId a, ArcId b) { return in_order(present(b), present(a)); });
+    for (const ArcId number : arcs) {
+      const auto [version, arc] = present(number);
+      sink_.add(version, content.before_step(arc));
+    }
   }
 
  private:

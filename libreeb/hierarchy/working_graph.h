@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "libreeb/containers/kept_ids.h"
 #include "libreeb/graph/direction.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/graph/tables_in_memory.h"
@@ -75,6 +76,13 @@ class BasicWorkingGraph {
   // Moves the end of `arc` on side d to `node`. REQUIRES: its lower end stays below its upper end.
   void move_end(ArcId arc, Direction d, NodeId node);
   void remove(ArcId arc);
+
+  // The nodes and arcs that are left when compact() is called. It gives each its rank among them as its number.
+  struct Left {
+    KeptIds nodes, arcs;
+  };
+  // Forgets the numbers of what was removed. The heaps stay as they are.
+  Left compact();
 
  private:
   struct HeapLinks {
@@ -198,6 +206,39 @@ void BasicWorkingGraph<TableKind>::erase(ArcId arc, Direction d) {
     auto& siblings = arcs_[links.parent].heap[d].child;
     siblings[siblings[0] == arc ? 0 : 1] = rest;
   }
+}
+
+template <class TableKind>
+typename BasicWorkingGraph<TableKind>::Left BasicWorkingGraph<TableKind>::compact() {
+  Left left{KeptIds(end_node().value()), KeptIds(end_arc().value())};
+  left.nodes.keep_if(
+      [this](std::uint32_t id) { return nearest(NodeId(id), kDown) != kNone || nearest(NodeId(id), kUp) != kNone; });
+  left.arcs.keep_if([this](std::uint32_t id) { return alive(ArcId(id)); });
+
+  const auto node_now = [&left](NodeId node) {
+    return node == NodeId::none() ? node : NodeId(left.nodes.rank(node.value()));
+  };
+  const auto arc_now = [&left](ArcId arc) { return arc == kNone ? arc : ArcId(left.arcs.rank(arc.value())); };
+  // No number rises, so no entry is overwritten before it is moved.
+  for (ArcId arc; arc < end_arc(); ++arc) {
+    if (!left.arcs.has(arc.value())) continue;
+    Arc moved = arcs_[arc];
+    for (const Direction d : {kDown, kUp}) {
+      moved.end[d] = node_now(moved.end[d]);
+      moved.heap[d].parent = arc_now(moved.heap[d].parent);
+      for (ArcId& child : moved.heap[d].child) child = arc_now(child);
+    }
+    arcs_[arc_now(arc)] = moved;
+  }
+  for (NodeId node; node < end_node(); ++node) {
+    if (!left.nodes.has(node.value())) continue;
+    std::array<Nearest, 2> moved = top_[node];
+    for (Nearest& nearest : moved) nearest = {arc_now(nearest.arc), node_now(nearest.end)};
+    top_[node_now(node)] = moved;
+  }
+  arcs_.resize(left.arcs.count());
+  top_.resize(left.nodes.count());
+  return left;
 }
 
 }  // namespace reeb

@@ -13,7 +13,7 @@
 
 #include "io/file/temp_dir.h"
 #include "libreeb/base/memory_budget.h"
-#include "ooc/stored_hierarchy/kept_ids.h"
+#include "libreeb/containers/kept_ids.h"
 #include "ooc/tables/page_cache.h"
 
 namespace reeb::ooc {

@@ -1,5 +1,5 @@
-// Cancelling with the rules ahead of the buckets and records: the same records, however far they run ahead, and
-// whichever thread is faster.
+// Cancelling with the rules ahead of the buckets and records: the same records, however far they run ahead, whichever
+// thread is faster, and whenever what is left moves together.
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -39,13 +39,16 @@ class Recorder : public RecordSink {
   bool slow_;
 };
 
-Result build(const test::EmbeddedGraph& made, const DoBoth& both, const RunAhead& ahead, bool slow = false) {
+constexpr std::size_t kNever = ~std::size_t{0};  // to shrink
+
+Result build(const test::EmbeddedGraph& made, const DoBoth& both, const RunAhead& ahead, bool slow = false,
+             std::size_t shrink = kNever) {
   ReebGraph graph = made.graph;
   Result result;
   Recorder recorder(result, slow);
   ooc::ThreadTurns turns;
   result.hierarchy = build_hierarchy(graph, pack_lists(made.buckets.view()), made.exponent, recorder,
-                                     {.both = both, .turns = &turns, .ahead = ahead});
+                                     {.both = both, .turns = &turns, .ahead = ahead, .shrink = shrink});
   return result;
 }
 
@@ -55,6 +58,15 @@ void expect_same(const Result& a, const Result& b) {
   ASSERT_EQ(a.arcs, b.arcs);
   ASSERT_EQ(a.packed, b.packed);
   ASSERT_EQ(a.dropped, b.dropped);
+}
+
+// Long paths, many loops, and lists that change often.
+test::EmbeddedGraph large_graph(bench::GraphKind kind, std::size_t arcs) {
+  test::EmbeddedGraph made{.graph = bench::GraphMaker(kind, arcs).make(), .buckets = {}};
+  bench::place_nodes(made.graph);
+  made.exponent = bucket_exponent(made.graph.nodes.front().value, made.graph.nodes.back().value, 64);
+  made.buckets = bench::make_buckets(made.graph, made.exponent);
+  return made;
 }
 
 // From lists of one note, and every path read, to a list for all notes, and no path read.
@@ -84,6 +96,32 @@ TEST_P(RunsAhead, WithTheSameRecords) {
   }
 }
 
+// From the nodes and arcs moving together after each pair to rarely.
+class Compacts : public testing::TestWithParam<std::size_t> {};
+INSTANTIATE_TEST_SUITE_P(Shrink, Compacts, testing::Values(1, 2, 4));
+
+TEST_P(Compacts, WithTheSameRecords) {
+  ooc::Worker worker;
+  const DoBoth both = [&](const auto& here, const auto& elsewhere) { worker.do_both(here, elsewhere); };
+  for (std::uint64_t seed = 0; seed < test::case_count(3000); ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    test::Random random(seed);
+    const test::EmbeddedGraph made =
+        test::random_embedded_graph(random, static_cast<std::uint32_t>(seed % 50 == 0 ? 400 : 8 + seed % 24));
+    const Result expected = build(made, {}, {});
+    expect_same(build(made, {}, {}, false, GetParam()), expected);
+    expect_same(build(made, both, kAhead[seed % std::size(kAhead)], seed % 2 == 0, GetParam()), expected);
+  }
+}
+
+TEST_P(Compacts, LargeGraphsWithTheSameRecords) {
+  for (const bench::GraphKind kind : {bench::kPlate, bench::kNoise, bench::kExpander}) {
+    SCOPED_TRACE(testing::Message() << "kind " << static_cast<int>(kind));
+    const test::EmbeddedGraph made = large_graph(kind, 2000);
+    expect_same(build(made, {}, {}, false, GetParam()), build(made, {}, {}));
+  }
+}
+
 // Pairs whose notes are in several lists change arcs that the pairs after them read.
 TEST(RunAhead, WithTheSameRecordsForLargerGraphs) {
   ooc::Worker worker;
@@ -91,15 +129,6 @@ TEST(RunAhead, WithTheSameRecordsForLargerGraphs) {
     test::Random random(seed);
     expect_same_in_two_threads(test::random_embedded_graph(random, 400), worker, seed);
   }
-}
-
-// Long paths, many loops, and lists that change often.
-test::EmbeddedGraph large_graph(bench::GraphKind kind, std::size_t arcs) {
-  test::EmbeddedGraph made{.graph = bench::GraphMaker(kind, arcs).make(), .buckets = {}};
-  bench::place_nodes(made.graph);
-  made.exponent = bucket_exponent(made.graph.nodes.front().value, made.graph.nodes.back().value, 64);
-  made.buckets = bench::make_buckets(made.graph, made.exponent);
-  return made;
 }
 
 TEST(RunAhead, LargeGraphsInTwoThreads) {

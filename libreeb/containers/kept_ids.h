@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace reeb::ooc {
+namespace reeb {
 
 // At first all ids from 0 to before `size`; keep_if() leaves fewer.
 //
@@ -58,4 +58,4 @@ class KeptIds {
   std::uint32_t count_;
 };
 
-}  // namespace reeb::ooc
+}  // namespace reeb

@@ -1,11 +1,11 @@
-#include "ooc/stored_hierarchy/kept_ids.h"
+#include "libreeb/containers/kept_ids.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <set>
 
-namespace reeb::ooc {
+namespace reeb {
 namespace {
 
 TEST(KeptIds, RanksAreThoseOfASet) {
@@ -40,4 +40,4 @@ TEST(KeptIds, RanksAreThoseOfASet) {
 }
 
 }  // namespace
-}  // namespace reeb::ooc
+}  // namespace reeb
