@@ -96,7 +96,7 @@ class ArcChanges {
     if (content_.cut(cut)) log_.touch(cut.into, ends_of_into);
   }
 
-  // These are done to the content, as IgnoreContent says, and are to be done to the arcs.
+  // Each of these is done to the content, as IgnoreContent says. The arcs that it moves or removes are touched.
   void cut(const ArcCut& cut, const ArcEnds& ends_of_into) {
     cut_content(cut, ends_of_into);
     log_.touch(cut.from, ends_along(cut.direction, cut.start, cut.end));

@@ -27,7 +27,7 @@ struct HierarchyWork {
   RingTurns* turns = nullptr;          // with it, two threads cancel: `both` must run its functions at the same time
   std::optional<RunAhead> ahead = {};  // nothing: RunAhead::for_arcs()
   // With an embedding, nodes and arcs that are left move together in memory when 1 / shrink^2 of the pairs is left, and
-  // each time that 1 / shrink of these is.
+  // each time that 1 / shrink of these is. REQUIRES: it is not 0.
   std::size_t shrink = 4;
 };
 

@@ -177,7 +177,7 @@ class Canceller {
     full = std::move(left);
   }
 
-  // REQUIRES: changes_ was told.
+  // REQUIRES: changes_ was told of it.
   void move_start(Direction d, ArcId arc, NodeId node) {
     note_ends(arc);
     graph_.move_end(arc, opposite(d), node);

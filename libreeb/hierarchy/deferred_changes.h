@@ -43,7 +43,7 @@ struct ArcNote {
 
   Kind kind = Kind::kNothing;
   bool ends_step = false;
-  std::uint8_t count = 0;
+  std::uint8_t count = 0;  // of the nodes that kDrop drops
   Direction direction : 8 = kUp;
   ArcId arc = ArcId::none(), other = ArcId::none();
   std::array<NodeId, 3> nodes{kNoNode, kNoNode, kNoNode};
@@ -109,7 +109,7 @@ class DeferredChanges {
           .direction = d,
           .arc = arc,
           .other = other,
-          .nodes = {ends.lo, ends.hi, kNoNode},
+          .nodes = d == kUp ? std::array{ends.hi, ends.lo, kNoNode} : std::array{ends.lo, ends.hi, kNoNode},
           .ends = ends_of_other});
   }
   void drop(ArcId arc, const ArcEnds& ends, std::uint32_t nodes) {
@@ -294,7 +294,7 @@ std::size_t DeferredChanges<Content, Graph>::apply(const std::vector<ArcNote>& n
         now_.join({note.arc, note.other, b, a, c});
         break;
       case Kind::kLay:
-        now_.lay(note.arc, {a, b}, note.other, note.ends, d);
+        now_.lay(note.arc, ends_along(d, b, a), note.other, note.ends, d);
         break;
       case Kind::kDrop:
         now_.drop(note.arc, note.ends, note.count);
@@ -324,13 +324,11 @@ void DeferredChanges<Content, Graph>::prefetch(const std::vector<ArcNote>& notes
     const ArcNote& note = notes[at + kPlace];
     for (const ArcId arc : {note.arc, note.other})
       if (arc != ArcId::none()) now_.prefetch_place(arc);
-    const bool reads_position = note.kind == Kind::kJoin || note.kind == Kind::kLay;
-    for (const NodeId node : note.nodes) {
-      if (node == NodeId::none()) continue;
-      if (reads_position)
-        now_.prefetch_node(node);
-      else
-        now_.prefetch_value(node);
+    if (note.kind == Kind::kJoin || note.kind == Kind::kLay) {
+      now_.prefetch_node(note.nodes[0]);  // the node that enters a bucket; the others are only recorded
+    } else {
+      for (const NodeId node : note.nodes)
+        if (node != NodeId::none()) now_.prefetch_value(node);
     }
   }
   if (at + kContent < notes.size()) {

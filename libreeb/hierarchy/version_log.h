@@ -64,8 +64,8 @@ class VersionLog {
     ++step_;
   }
 
-  // Passes on the arcs of the last version. To be called once, at the end. `arcs` have any numbers; living_arc_of()
-  // has the arc of each.
+  // Passes on the arcs of the last version. To be called once, at the end. living_arc_of(arc)
+  // says which arc of the full graph each of `arcs` is, and its ends.
   template <class Content, class LivingArcOf>
   void finish(const Content& content, std::vector<ArcId> arcs, const LivingArcOf& living_arc_of) {
     const auto present = [&](ArcId number) -> Ended {
