@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "io/mesh/missing_property.h"
 #include "io/text/words.h"
-#include "libreeb/base/error.h"
 
 namespace reeb::io {
 std::vector<std::string> property_names(std::span<const PointArray> arrays) {
@@ -25,12 +25,7 @@ PointColumn find_point_column(std::span<const PointArray> arrays, const std::str
     for (std::size_t i = 0; component && i < arrays.size(); ++i)
       if (arrays[i].name == property.substr(0, colon) && *component < arrays[i].components) return {i, *component};
   }
-  std::string hint = "choose a property that the mesh has, a coordinate, or file:PATH";
-  for (const PointArray& array : arrays)
-    if (array.name == property)
-      hint =
-          "it has " + std::to_string(array.components) + " components; choose one, such as property:" + property + ":0";
-  throw Error(ErrorKind::kBadInput, "the mesh has no vertex property \"" + property + "\"", hint).at(file);
+  throw missing_property(property, property_names(arrays)).at(file);
 }
 
 }  // namespace reeb::io

@@ -8,6 +8,7 @@
 
 #include "io/functions/mesh_field.h"
 #include "io/functions/value_file.h"
+#include "io/mesh/missing_property.h"
 #include "io/mesh/scalar_bytes.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
@@ -44,10 +45,7 @@ FunctionSource::FunctionSource(const FunctionSpec& spec, const MeshInfo& info, s
         .at(mesh_name_);
   } else if (spec.kind == Kind::kProperty || spec.kind == Kind::kValue) {
     const auto found = std::ranges::find(properties, spec.argument);
-    if (found == properties.end())
-      throw Error(ErrorKind::kBadInput, "the mesh has no vertex property \"" + spec.argument + "\"",
-                  "choose a property that the mesh has, a coordinate, or file:PATH")
-          .at(mesh_name_);
+    if (found == properties.end()) throw missing_property(spec.argument, info.property_names).at(mesh_name_);
     columns_ = {info.dimension + static_cast<unsigned>(found - properties.begin())};
   } else if (spec.kind == Kind::kFile) {
     file_ = open_values(spec.argument, number_count_ ? number_count_ : info.vertex_count, number_count_.has_value());

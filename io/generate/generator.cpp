@@ -195,7 +195,7 @@ std::unique_ptr<Shape> make_shape(const GeneratorOptions& options) {
 
 std::unique_ptr<GeneratedMesh> generate_mesh(const GeneratorOptions& options, const ReadOptions& read_options) {
   if (!read_options.properties.empty())
-    throw Error(ErrorKind::kBadInput, "the mesh has no vertex property '" + read_options.properties.front() + "'",
+    throw Error(ErrorKind::kBadInput, "the mesh has no vertex property \"" + read_options.properties.front() + "\"",
                 "generated meshes have coordinates only");
   return std::make_unique<ShapeReader>(make_shape(options), options, read_options.batch_events);
 }

@@ -7,6 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "io/mesh/missing_property.h"
 #include "io/text/entry_limit.h"
 #include "io/text/hints.h"
 #include "io/text/words.h"
@@ -264,13 +265,8 @@ std::vector<std::size_t> PlyHeader::find_properties(const std::vector<std::strin
   std::vector<std::size_t> places;
   for (const std::string& name : names) {
     const auto found = place_of.find(name);
-    if (found == place_of.end() || properties[found->second].list_count) {
-      std::string known;
-      for (const std::string& other : property_names()) known += (known.empty() ? "" : ", ") + other;
-      throw Error(ErrorKind::kBadInput, "the mesh has no vertex property \"" + name + "\"",
-                  known.empty() ? "it has none but its coordinates" : "it has these: " + known)
-          .at(file);
-    }
+    if (found == place_of.end() || properties[found->second].list_count)
+      throw missing_property(name, property_names()).at(file);
     places.push_back(found->second);
   }
   return places;

@@ -3,16 +3,11 @@
 #include <algorithm>
 
 #include "io/events/pre_order.h"
+#include "io/mesh/missing_property.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
 namespace {
-
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const auto& name : names) text.append(text.empty() ? "" : ", ").append(name);
-  return text;
-}
 
 // Names for the further values of vertices: "s0", "s1", ... for floats, "i0", "i1", ... for integers.
 std::vector<std::string> property_names(const StreamHeader& header) {
@@ -80,10 +75,7 @@ class StreamMeshReader : public MeshReader {
   Column column_of(const std::string& name) const {
     const auto& names = info_.property_names;
     const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end())
-      throw Error(ErrorKind::kBadInput, "the mesh has no vertex property '" + name + "'",
-                  names.empty() ? "it has none at all" : "it has: " + joined(names))
-          .at(reader_->name());
+    if (found == names.end()) throw missing_property(name, names).at(reader_->name());
     const auto at = static_cast<std::size_t>(found - names.begin());
     const std::size_t floats = reader_->header().vertex_floats - 3;
     return at < floats ? Column{false, 3 + at} : Column{true, at - floats};

@@ -207,7 +207,7 @@ TEST_F(Convert, VolumesKeepTheirGraphsAndTheValuesOfTheirVertices) {
     }
   const Outcome absent = reeb("compute " + volume + " -f property:s1");
   EXPECT_EQ(absent.exit_code, 1);
-  EXPECT_NE(absent.error.find("hint: it has: s0"), std::string::npos) << absent.error;
+  EXPECT_NE(absent.error.find("hint: it has these: s0"), std::string::npos) << absent.error;
   for (const std::string option : {"--finalize", "--order hilbert"}) {
     const Outcome refused = reeb("convert " + volume + " c.svb " + option);
     EXPECT_EQ(refused.exit_code, 2) << option;
