@@ -1,4 +1,4 @@
-// What a user is told who names a vertex property that a mesh does not have.
+// The error about a vertex property that a mesh does not have.
 #pragma once
 
 #include <span>
@@ -8,7 +8,8 @@
 
 namespace reeb::io {
 
-// An Error{kBadInput}, to be thrown with the mesh's name. The hint names the first of the properties that it has.
+// An Error{kBadInput}, to be thrown with the file of the mesh. The hint names the properties that the mesh has, at most
+// the first twenty.
 Error missing_property(const std::string& name, std::span<const std::string> known);
 
 }  // namespace reeb::io

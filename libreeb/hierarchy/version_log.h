@@ -64,8 +64,8 @@ class VersionLog {
     ++step_;
   }
 
-  // Passes on the arcs of the last version. To be called once, at the end. living_arc_of(arc)
-  // says which arc of the full graph each of `arcs` is, and its ends.
+  // Passes on the arcs of the last version. To be called once, at the end. For each of `arcs`, living_arc_of()
+  // says which arc of the full graph it is, and its ends.
   template <class Content, class LivingArcOf>
   void finish(const Content& content, std::vector<ArcId> arcs, const LivingArcOf& living_arc_of) {
     const auto present = [&](ArcId number) -> Ended {
