@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "libreeb/base/prefetch.h"
 #include "ooc/reeb_writer/frame_size.h"
 #include "ooc/reeb_writer/version_counter.h"
 #include "ooc/threads/read_ahead.h"
@@ -138,14 +139,14 @@ class FramePlanner {
       : hierarchy_(hierarchy),
         records_(records),
         steps_(static_cast<std::uint32_t>(hierarchy.persistence().size())),
-        introduced_(hierarchy.node_count()),
+        introduced_(hierarchy.node_count() / kBits + 1),
         cutter_(steps_, cuts) {
     records_.rewind(RecordSource::Buckets::kOnlyCounted);
   }
 
   // To be called for all isolated nodes first.
   void add_isolated(NodeId node) {
-    introduced_[node.value()] = true;
+    mark(node);
     hierarchy_.introduce(node, cutter_.add_isolated());
   }
 
@@ -155,37 +156,47 @@ class FramePlanner {
     some.clear();
     for (PackedRecord record; some.size() < kRecordsAtOnce && records_.next(record); ++count_) {
       const ArcVersion& arc = record.arc;
-      check_record(arc, count_, introduced_.size(), steps_);
+      check_record(arc, count_, hierarchy_.node_count(), steps_);
       if (arc.died > std::exchange(last_died_, arc.died)) fail("arc", count_, "lives longer than the one before");
       some.push_back({arc, record.bucket_count});
-      place(record);
+      // They can be anywhere, so without this place() would wait for each.
+      for (const NodeId end : {arc.lo, arc.hi}) prefetch(&introduced_[end.value() / kBits]);
     }
+    for (const CountedArc& record : some) place(record);
     return !some.empty();
   }
 
   // REQUIRES: read() has returned false. Returns the number of records.
   std::uint64_t finish() {
-    for (std::size_t node = 0; node < introduced_.size(); ++node)
-      if (!introduced_[node]) fail("node", node, "is neither isolated nor named by an arc");
+    for (std::uint32_t node = 0; node < hierarchy_.node_count(); ++node)
+      if (mark(NodeId(node))) fail("node", node, "is neither isolated nor named by an arc");
     cutter_.finish();
     return count_;
   }
 
  private:
-  void place(const PackedRecord& record) {
+  static constexpr std::uint32_t kBits = 64;
+
+  // Marks the node as introduced. Returns whether it was not before.
+  bool mark(NodeId node) {
+    std::uint64_t& bits = introduced_[node.value() / kBits];
+    const std::uint64_t bit = std::uint64_t{1} << node.value() % kBits;
+    return (std::exchange(bits, bits | bit) & bit) == 0;
+  }
+
+  void place(const CountedArc& record) {
     const NodeId lo = record.arc.lo, hi = record.arc.hi;
-    const bool is_new_lo = !introduced_[lo.value()], is_new_hi = !introduced_[hi.value()];
+    const bool is_new_lo = mark(lo), is_new_hi = mark(hi);
     const std::uint32_t new_nodes = (is_new_lo ? 1u : 0u) + (is_new_hi ? 1u : 0u);
-    const std::uint32_t frame = cutter_.add_record(record.arc.died, new_nodes, record.bucket_count);
+    const std::uint32_t frame = cutter_.add_record(record.arc.died, new_nodes, record.buckets);
     if (is_new_lo) hierarchy_.introduce(lo, frame);
     if (is_new_hi) hierarchy_.introduce(hi, frame);
-    introduced_[lo.value()] = introduced_[hi.value()] = true;
   }
 
   HierarchySource& hierarchy_;
   RecordSource& records_;
   const std::uint32_t steps_;
-  std::vector<bool> introduced_;  // by node
+  std::vector<std::uint64_t> introduced_;  // by node, a bit
   FrameCutter cutter_;
   std::uint32_t last_died_ = kNeverDies;
   std::uint64_t count_ = 0;
