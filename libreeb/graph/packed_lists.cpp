@@ -24,30 +24,30 @@ void PackedLists::add(std::span<const Bucket> buckets) {
 }
 
 void PackedLists::add_packed(std::span<const std::byte> packed) {
-  places_.push_back(kNowhere);
+  places_.emplace_back();
   replace(places_.size() - 1, packed);
 }
 
 std::uint64_t PackedLists::memory_bytes() const {
-  return places_.capacity() * sizeof(std::uint64_t) + chunks_.capacity() * sizeof(Chunk) + chunk_bytes_ +
+  return places_.capacity() * sizeof(Place) + chunks_.capacity() * sizeof(Chunk) + chunk_bytes_ +
          (spare_ != nullptr ? kChunkBytes : 0);
 }
 
 std::uint64_t PackedLists::most_bytes(std::uint64_t arcs, std::uint64_t buckets) {
   constexpr std::uint64_t kListBytes = kArcBytes + 2 + 3;  // arc, size in bytes, length
   const std::uint64_t bytes = kPackedBucketBytes * buckets + kListBytes * std::min(arcs, buckets);
-  return sizeof(std::uint64_t) * arcs + bytes + bytes / (kListsPerChunk - 1) + 2 * kChunkBytes;
+  return sizeof(Place) * arcs + bytes + bytes / (kListsPerChunk - 1) + 2 * kChunkBytes;
 }
 
 std::span<const std::byte> PackedLists::of(std::size_t arc) const {
-  const std::uint64_t place = places_[arc];
-  if (place == kNowhere) return {};
-  return block_at(chunks_[place >> 32], static_cast<std::uint32_t>(place)).list;
+  const Place place = places_[arc];
+  if (place.lines == 0) return {};
+  return block_at(chunks_[place.chunk], place.offset).list;
 }
 
 void PackedLists::replace(std::size_t arc, std::span<const std::byte> packed) {
-  if (places_[arc] != kNowhere) forget(places_[arc]);
-  places_[arc] = packed.empty() ? kNowhere : store(static_cast<std::uint32_t>(arc), packed, open_);
+  if (places_[arc].lines != 0) forget(places_[arc]);
+  places_[arc] = packed.empty() ? Place{} : store(static_cast<std::uint32_t>(arc), packed, open_);
 }
 
 PackedLists::Block PackedLists::block_at(const Chunk& chunk, std::uint32_t offset) {
@@ -63,7 +63,7 @@ PackedLists::Block PackedLists::block_at(const Chunk& chunk, std::uint32_t offse
   return {arc, {at, size}, static_cast<std::uint32_t>(at - chunk.bytes.get()) + size};
 }
 
-std::uint64_t PackedLists::store(std::uint32_t arc, std::span<const std::byte> list, std::uint32_t& open) {
+PackedLists::Place PackedLists::store(std::uint32_t arc, std::span<const std::byte> list, std::uint32_t& open) {
   const std::size_t most = kArcBytes + kMaxSizeBytes + list.size();
   if (most > ~std::uint32_t{0}) throw std::length_error("PackedLists: a list of 4 GiB");
   const std::uint32_t index = chunk_with_room(most, open);
@@ -78,7 +78,9 @@ std::uint64_t PackedLists::store(std::uint32_t arc, std::span<const std::byte> l
   chunk.live += stored;
   used_bytes_ += stored;
   live_bytes_ += stored;
-  return place(index, offset);
+  const std::size_t before = reinterpret_cast<std::uintptr_t>(chunk.bytes.get() + offset) % kLineBytes;  // in a line
+  const std::size_t lines = std::min((before + stored + kLineBytes - 1) / kLineBytes, kMostLines);
+  return {index, static_cast<std::uint16_t>(offset), static_cast<std::uint16_t>(lines)};
 }
 
 // A large list has a chunk of its own, so that little room is lost at the ends of chunks.
@@ -104,13 +106,12 @@ std::uint32_t PackedLists::new_chunk(std::size_t room) {
   return index;
 }
 
-void PackedLists::forget(std::uint64_t place) {
-  const auto index = static_cast<std::uint32_t>(place >> 32), offset = static_cast<std::uint32_t>(place);
-  const std::uint32_t size = block_at(chunks_[index], offset).end - offset;
-  chunks_[index].live -= size;
+void PackedLists::forget(const Place& place) {
+  const std::uint32_t size = block_at(chunks_[place.chunk], place.offset).end - place.offset;
+  chunks_[place.chunk].live -= size;
   live_bytes_ -= size;
   held_bytes_ += size;
-  note_if_empty(index);
+  note_if_empty(place.chunk);
 }
 
 void PackedLists::note_if_empty(std::uint32_t index) {
@@ -164,7 +165,8 @@ void PackedLists::move_lists(std::uint32_t index) {
   for (std::uint32_t offset = 0; chunks_[index].live != 0 && offset < chunks_[index].used;) {
     const Block block = block_at(chunks_[index], offset);
     const std::uint32_t size = block.end - offset;
-    if (places_[block.arc] == place(index, offset)) {
+    const Place& place = places_[block.arc];
+    if (place.lines != 0 && place.chunk == index && place.offset == offset) {
       chunks_[index].live -= size;
       live_bytes_ -= size;
       places_[block.arc] = store(block.arc, block.list, open_for_moved_);
@@ -175,9 +177,8 @@ void PackedLists::move_lists(std::uint32_t index) {
 
 // Each list says where the next one begins, so without this every step would wait for memory.
 void PackedLists::prefetch_bytes(const Chunk& chunk) {
-  constexpr std::uint32_t kLineBytes = 64;
-  const std::uint32_t end = std::min<std::uint32_t>(chunk.used, kChunkBytes);
-  for (std::uint32_t at = 0; at < end; at += kLineBytes) reeb::prefetch(chunk.bytes.get() + at);
+  const std::size_t end = std::min<std::size_t>(chunk.used, kChunkBytes);
+  for (std::size_t at = 0; at < end; at += kLineBytes) reeb::prefetch(chunk.bytes.get() + at);
 }
 
 void PackedLists::free(std::uint32_t index) {

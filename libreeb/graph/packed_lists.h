@@ -42,12 +42,10 @@ class PackedLists {
   // Prefetches where the list is stored; when that has arrived, prefetch() fetches the list.
   void prefetch_place(std::size_t arc) const { reeb::prefetch(&places_[arc]); }
   void prefetch(std::size_t arc) const {
-    constexpr std::uint32_t kLineBytes = 64, kBytes = 128;  // most lists are no longer
-    const std::uint64_t place = places_[arc];
-    if (place == kNowhere) return;
-    const Chunk& chunk = chunks_[place >> 32];
-    const auto first = static_cast<std::uint32_t>(place), end = std::min(chunk.used, first + kBytes);
-    for (std::uint32_t at = first; at < end; at += kLineBytes) reeb::prefetch(chunk.bytes.get() + at);
+    const Place place = places_[arc];
+    if (place.lines == 0) return;
+    const std::byte* const first = chunks_[place.chunk].bytes.get() + place.offset;
+    for (std::size_t line = 0; line < place.lines; ++line) reeb::prefetch(first + line * kLineBytes);
   }
 
   void replace(std::size_t arc, std::span<const std::byte> packed);
@@ -64,8 +62,14 @@ class PackedLists {
  private:
   static constexpr std::size_t kChunkBytes = 64 << 10;
   static constexpr std::size_t kListsPerChunk = 8;  // at least
-  static constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
   static constexpr std::uint32_t kNoChunk = ~std::uint32_t{0};
+  static constexpr std::size_t kLineBytes = 64, kMostLines = 4;
+  // Where a list is, and the number of lines of the cache that prefetch() fetches of it: 0 if there is no list.
+  struct Place {
+    std::uint32_t chunk = 0;
+    std::uint16_t offset = 0, lines = 0;
+  };
+  static_assert(sizeof(Place) == 8 && kChunkBytes <= 1u << 16);  // in a larger chunk, a list has the offset 0
   struct Chunk {
     std::unique_ptr<std::byte[]> bytes;
     std::uint32_t room = 0, used = 0, live = 0;
@@ -78,14 +82,13 @@ class PackedLists {
     std::uint32_t end;  // offset of the end in the chunk
   };
 
-  static std::uint64_t place(std::uint32_t chunk, std::uint32_t offset) { return std::uint64_t{chunk} << 32 | offset; }
   static Block block_at(const Chunk& chunk, std::uint32_t offset);
   // `open` is the chunk that such lists fill.
-  std::uint64_t store(std::uint32_t arc, std::span<const std::byte> list, std::uint32_t& open);
+  Place store(std::uint32_t arc, std::span<const std::byte> list, std::uint32_t& open);
   std::uint32_t chunk_with_room(std::size_t bytes, std::uint32_t& open);
   std::uint32_t new_chunk(std::size_t room);
   bool is_open(std::uint32_t chunk) const { return chunk == open_ || chunk == open_for_moved_; }
-  void forget(std::uint64_t place);
+  void forget(const Place& place);
   void note_if_empty(std::uint32_t chunk);
   void move_lists(std::uint32_t chunk);
   static void prefetch_bytes(const Chunk& chunk);
@@ -96,7 +99,7 @@ class PackedLists {
   std::uint64_t most_holes() const { return 3 * live_bytes_ / 8 + 2 * kChunkBytes; }
   std::uint64_t fewest_holes() const { return most_holes() - live_bytes_ / 16; }
 
-  std::vector<std::uint64_t> places_;  // by arc: chunk and offset
+  std::vector<Place> places_;  // by arc
   std::vector<Chunk> chunks_;
   std::vector<std::uint32_t> free_;                            // chunks without memory
   std::vector<std::uint32_t> empty_;                           // chunks without a list in use, to be freed

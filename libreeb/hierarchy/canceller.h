@@ -249,11 +249,15 @@ void Canceller<Content, Graph, ChangesKind>::zip_onto(Direction d, ArcId arc, Ar
 template <class Content, class Graph, template <class, class> class ChangesKind>
 bool Canceller<Content, Graph, ChangesKind>::follow_in_parallel(Direction d, ArcId arc, ArcId& other, NodeId& start,
                                                                 NodeId end, std::uint32_t most) {
+  if (along(d, graph_.end(other, d)) >= along(d, end)) return true;  // no arc is passed
+
   ArcPart left{d, full(arc), full(start), full(end)};  // the part whose content was not moved yet
   if constexpr (Changes::kDefers) {
-    if (note_in_parallel(d, arc, other, start, end, most)) return true;
-    if (most != kAny) return false;
-    changes_.begin_long_path(left);
+    if (!changes_.begin_known_path(left)) {
+      if (note_in_parallel(d, arc, other, start, end, most)) return true;
+      if (most != kAny) return false;
+      changes_.begin_long_path(left);
+    }
   }
   ArcId passed = other;
   NodeId from = start;

@@ -3,7 +3,7 @@
 // WHY. With an embedding, about half of the time of cancelling goes into lists of buckets and into records. The rules
 // do not need them, but for one thing: how far a long path next to an arc can be followed at once depends on the
 // content of the arc. So a short path is noted arc by arc. For a long one the rules read the content themselves, once
-// what was noted of it is done.
+// what was noted of it is done. They also do so for a short one where they would soon wait for the other thread.
 #pragma once
 
 #include <algorithm>
@@ -150,6 +150,9 @@ class DeferredChanges {
   // Reads the content of the arc, for first_value(): then the cuts of a long path are noted one by one.
   // REQUIRES: this step did not change it.
   void begin_long_path(const ArcPart& part);
+  // The same for a path of any length, if the other thread is far behind, and no note of the arc waits for it; else it
+  // returns false. That thread is then spared the notes of arcs to which nothing is moved, which are most of them.
+  bool begin_known_path(const ArcPart& part);
   double first_value(const ArcPart& part) { return now_.content().first_value(part, rest_); }
 
   // For the thread of the rules; apply() prefetches what it needs itself.
@@ -196,6 +199,13 @@ class DeferredChanges {
     return turns_->filled();
   }
   void note_content(ArcId arc) { changed_.push_back(arc); }
+  // The number of lists from the last one that changes the content of the arc to the open one. That it starts again
+  // after 2^16 lists only means waiting in vain.
+  std::uint16_t lists_since(ArcId arc) const { return static_cast<std::uint16_t>(list_ - noted_in_[arc.value()]); }
+  void start_rest(const ArcPart& part) {
+    const Alone alone(*turns_);
+    now_.content().start_rest(part, rest_);
+  }
   void note_cut(Kind kind, const ArcCut& cut, const ArcEnds& ends_of_into) {
     note_content(cut.from);
     note_content(cut.into);
@@ -233,15 +243,21 @@ void DeferredChanges<Content, Graph>::close() noexcept {
 
 template <class Content, class Graph>
 void DeferredChanges<Content, Graph>::begin_long_path(const ArcPart& part) {
-  // A number that comes again after 2^16 lists only means waiting in vain.
-  auto lists = static_cast<std::uint16_t>(list_ - noted_in_[part.arc.value()]);
+  std::uint16_t lists = lists_since(part.arc);
   if (lists == 0) {
     pass_on();
     lists = 1;
   }
   if (!turns_->wait_until_used(lists - 1)) throw Stopped();
-  const Alone alone(*turns_);
-  now_.content().start_rest(part, rest_);
+  start_rest(part);
+}
+
+template <class Content, class Graph>
+bool DeferredChanges<Content, Graph>::begin_known_path(const ArcPart& part) {
+  const std::size_t full = turns_->full();
+  if (full < RingTurns::kSlots - 1 || lists_since(part.arc) <= full) return false;
+  start_rest(part);
+  return true;
 }
 
 template <class Content, class Graph>

@@ -1,6 +1,7 @@
 // Turns of two threads (libreeb/port/ring_turns.h).
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstddef>
 #include <mutex>
@@ -19,6 +20,7 @@ class ThreadTurns : public RingTurns {
     if (full_ == kSlots) wait(lock, kSlots / 2);
     return !is_stopped_;
   }
+  std::size_t full() override { return full_; }
   bool wait_until_used(std::size_t most) override {
     std::unique_lock lock(mutex_);
     if (full_ > most) wait(lock, most);
@@ -64,8 +66,8 @@ class ThreadTurns : public RingTurns {
 
   std::mutex mutex_, alone_;
   std::condition_variable changed_;
-  std::size_t full_ = 0;     // slots
-  std::size_t awaited_ = 0;  // no more full slots than this, while the filler waits
+  std::atomic<std::size_t> full_ = 0;  // slots; is changed under mutex_
+  std::size_t awaited_ = 0;            // no more full slots than this, while the filler waits
   bool user_waits_ = false, filler_waits_ = false, is_closed_ = false, is_stopped_ = false;
 };
 

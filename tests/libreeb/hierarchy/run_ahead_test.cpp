@@ -2,6 +2,7 @@
 // thread is faster, and whenever what is left moves together.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <thread>
 
 #include "libreeb/hierarchy/cancel.h"
@@ -41,12 +42,19 @@ class Recorder : public RecordSink {
 
 constexpr std::size_t kNever = ~std::size_t{0};  // to shrink
 
+// For the thread of the rules, the other one always is far behind.
+class FarBehind : public ooc::ThreadTurns {
+ public:
+  std::size_t full() override { return std::max(ooc::ThreadTurns::full(), kSlots - 1); }
+};
+
+template <class Turns = ooc::ThreadTurns>
 Result build(const test::EmbeddedGraph& made, const DoBoth& both, const RunAhead& ahead, bool slow = false,
              std::size_t shrink = kNever) {
   ReebGraph graph = made.graph;
   Result result;
   Recorder recorder(result, slow);
-  ooc::ThreadTurns turns;
+  Turns turns;
   result.hierarchy = build_hierarchy(graph, pack_lists(made.buckets.view()), made.exponent, recorder,
                                      {.both = both, .turns = &turns, .ahead = ahead, .shrink = shrink});
   return result;
@@ -82,6 +90,7 @@ void expect_same_in_two_threads(const test::EmbeddedGraph& made, ooc::Worker& wo
   for (const RunAhead& ahead : kAhead) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", notes " << ahead.notes);
     expect_same(build(made, both, ahead, slow = !slow), expected);
+    expect_same(build<FarBehind>(made, both, ahead, slow), expected);
   }
 }
 
