@@ -57,6 +57,31 @@ TEST(ThreadTurns, WaitsUntilWhatWasFilledIsUsed) {
   user.join();
 }
 
+// What the other thread did with a slot is visible once it is no longer counted.
+TEST(ThreadTurns, CountsTheFullSlots) {
+  constexpr int kTogether = RingTurns::kSlots / 2;  // the other thread is woken for no fewer
+  ThreadTurns turns;
+  int used = 0;
+  const auto fill = [&turns] {
+    for (int i = 0; i < kTogether; ++i) ASSERT_TRUE(turns.filled());
+  };
+  fill();
+  EXPECT_EQ(turns.full(), std::size_t{kTogether});
+  std::thread user([&] {
+    while (turns.next()) {
+      ++used;
+      turns.used();
+    }
+  });
+  for (int filled = kTogether; filled <= 1000; filled += kTogether) {
+    while (turns.full() != 0) std::this_thread::yield();
+    ASSERT_EQ(used, filled);
+    fill();
+  }
+  turns.close();
+  user.join();
+}
+
 TEST(ThreadTurns, WhoeverFillsIsToldThatTheOtherHasStopped) {
   ThreadTurns turns;
   for (std::size_t filled = 1; filled < RingTurns::kSlots; ++filled) ASSERT_TRUE(turns.filled());
