@@ -127,7 +127,7 @@ class DeferredChanges {
   bool is_reached(double value, Direction d, NodeId node) const { return now_.is_reached(value, d, node); }
 
   // Notes a path next to a part of an arc: first the part, and then each arc that is passed. Each of these takes what
-  // it can of the content of the part. In the end, end_path() or forget_path() is called.
+  // it can of the content of the part. In the end, forget_path() is called, or end_path() if an arc was passed.
   void begin_path(const ArcPart& part) {
     path_ = notes().size();
     notes().push_back(
@@ -140,7 +140,6 @@ class DeferredChanges {
         {.kind = Kind::kPass, .direction = d, .other = arc, .nodes = {end, kNoNode, kNoNode}, .ends = ends});
   }
   void end_path() {
-    if (notes().size() == path_ + 1) return forget_path();
     note_content(notes()[path_].arc);
     for (std::size_t i = path_ + 1; i < notes().size(); ++i) note_content(notes()[i].other);
     pass_on_if_full();
@@ -199,8 +198,8 @@ class DeferredChanges {
     return turns_->filled();
   }
   void note_content(ArcId arc) { changed_.push_back(arc); }
-  // The number of lists from the last one that changes the content of the arc to the open one. That it starts again
-  // after 2^16 lists only means waiting in vain.
+  // The number of lists from the last one that changes the content of the arc to the open one, modulo 2^16: too small a
+  // number only means waiting in vain.
   std::uint16_t lists_since(ArcId arc) const { return static_cast<std::uint16_t>(list_ - noted_in_[arc.value()]); }
   void start_rest(const ArcPart& part) {
     const Alone alone(*turns_);

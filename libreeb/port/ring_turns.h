@@ -21,12 +21,13 @@ class RingTurns {
   // For the thread that fills slots. These return false if the other one has stopped.
   // The next slot is full. Waits until the one after it is empty.
   virtual bool filled() = 0;
-  // How many slots are full, at most: the other one may use some meanwhile. What it did with those before is visible.
-  virtual std::size_t full() = 0;
   // Waits until at most `most` slots are full.
   virtual bool wait_until_used(std::size_t most) = 0;
   // No more slots are filled.
   virtual void close() = 0;
+  // How many slots are full, at most: the other one may use some meanwhile. What it did with those that are no longer
+  // counted is visible.
+  virtual std::size_t full() = 0;
 
   // For the thread that uses them. Waits until the next slot is full; false if none is and the ring is closed.
   virtual bool next() = 0;

@@ -139,7 +139,8 @@ class FramePlanner {
       : hierarchy_(hierarchy),
         records_(records),
         steps_(static_cast<std::uint32_t>(hierarchy.persistence().size())),
-        introduced_(hierarchy.node_count() / kBits + 1),
+        node_count_(hierarchy.node_count()),
+        introduced_(node_count_ / kBits + 1),
         cutter_(steps_, cuts) {
     records_.rewind(RecordSource::Buckets::kOnlyCounted);
   }
@@ -156,10 +157,10 @@ class FramePlanner {
     some.clear();
     for (PackedRecord record; some.size() < kRecordsAtOnce && records_.next(record); ++count_) {
       const ArcVersion& arc = record.arc;
-      check_record(arc, count_, hierarchy_.node_count(), steps_);
+      check_record(arc, count_, node_count_, steps_);
       if (arc.died > std::exchange(last_died_, arc.died)) fail("arc", count_, "lives longer than the one before");
       some.push_back({arc, record.bucket_count});
-      // They can be anywhere, so without this place() would wait for each.
+      // Nodes can be anywhere in memory, so without this place() would wait for each.
       for (const NodeId end : {arc.lo, arc.hi}) prefetch(&introduced_[end.value() / kBits]);
     }
     for (const CountedArc& record : some) place(record);
@@ -168,7 +169,7 @@ class FramePlanner {
 
   // REQUIRES: read() has returned false. Returns the number of records.
   std::uint64_t finish() {
-    for (std::uint32_t node = 0; node < hierarchy_.node_count(); ++node)
+    for (std::uint32_t node = 0; node < node_count_; ++node)
       if (mark(NodeId(node))) fail("node", node, "is neither isolated nor named by an arc");
     cutter_.finish();
     return count_;
@@ -196,7 +197,8 @@ class FramePlanner {
   HierarchySource& hierarchy_;
   RecordSource& records_;
   const std::uint32_t steps_;
-  std::vector<std::uint64_t> introduced_;  // by node, a bit
+  const std::size_t node_count_;
+  std::vector<std::uint64_t> introduced_;  // a bit for each node
   FrameCutter cutter_;
   std::uint32_t last_died_ = kNeverDies;
   std::uint64_t count_ = 0;
