@@ -74,17 +74,23 @@ LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options, const Po
   loaded.memory = store.budget().reserve("graph", graph_bytes(store, options));
   graph.nodes.reserve(node_count);
   if (options.positions) graph.positions.reserve(node_count);
+  const Reservation table_memory = store.budget().reserve("ends of arcs", NodeTable::bytes(node_count));
+  NodeTable table(graph.nodes, node_count);
   store.rewind_nodes();
-  for (std::vector<SettledNode> some; store.read_nodes(some, kRecordsAtOnce); tell())
-    for (const SettledNode& node : some) {
-      graph.nodes.push_back(node.key);
-      if (options.positions) graph.positions.push_back(node.position);
-    }
+  using Nodes = std::vector<SettledNode>;
+  read_ahead<Nodes>(
+      store.background(), [&](Nodes& some) { return store.read_nodes(some, kRecordsAtOnce); },
+      [&](const Nodes& some) {
+        for (const SettledNode& node : some) {
+          graph.nodes.push_back(node.key);
+          if (options.positions) graph.positions.push_back(node.position);
+        }
+        table.add_new();
+        tell();
+      });
   graph.lo.reserve(arc_count);
   graph.hi.reserve(arc_count);
   if (options.bucket_exponent) loaded.buckets.reserve(arc_count);
-  const Reservation table_memory = store.budget().reserve("ends of arcs", NodeTable::bytes(node_count));
-  const NodeTable table(graph.nodes);
   store.rewind_arcs();
   struct Piece {
     PackedArcPiece arcs;

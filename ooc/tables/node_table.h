@@ -19,13 +19,19 @@ class NodeTable {
  public:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-  // REQUIRES: `nodes` outlives this, unchanged.
-  explicit NodeTable(const std::vector<SweepKey>& nodes)
-      : nodes_(nodes), slots_(std::bit_ceil(2 * nodes.size() + 1), kNone) {
-    for (std::uint32_t node = 0; node < nodes.size(); ++node) {
-      std::size_t slot = home(nodes[node]);
+  // REQUIRES: `nodes` outlives this. It grows to at most `most` nodes, and changes in no other way.
+  NodeTable(const std::vector<SweepKey>& nodes, std::size_t most)
+      : nodes_(nodes), slots_(std::bit_ceil(2 * most + 1), kNone) {
+    add_new();
+  }
+  explicit NodeTable(const std::vector<SweepKey>& nodes) : NodeTable(nodes, nodes.size()) {}
+
+  // Adds the nodes that have come since the last call.
+  void add_new() {
+    for (; added_ < nodes_.size(); ++added_) {
+      std::size_t slot = home(nodes_[added_]);
       while (slots_[slot] != kNone) slot = (slot + 1) & (slots_.size() - 1);
-      slots_[slot] = node;
+      slots_[slot] = added_;
     }
   }
 
@@ -50,6 +56,7 @@ class NodeTable {
   }
 
   const std::vector<SweepKey>& nodes_;
+  std::uint32_t added_ = 0;
   std::vector<std::uint32_t> slots_;
 };
 

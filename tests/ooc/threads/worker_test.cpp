@@ -1,4 +1,4 @@
-// A thread in parallel to its owner, and reading ahead.
+// A thread in parallel to its owner.
 #include "ooc/threads/worker.h"
 
 #include <gtest/gtest.h>
@@ -8,8 +8,6 @@
 #include <stdexcept>
 #include <thread>
 #include <vector>
-
-#include "ooc/threads/read_ahead.h"
 
 namespace reeb::ooc {
 namespace {
@@ -84,35 +82,6 @@ TEST(Worker, PollsWhileItWaits) {
   EXPECT_TRUE(ended);
   worker.start([] { throw std::runtime_error("full"); });
   EXPECT_THROW(worker.wait([] {}), std::runtime_error);
-}
-
-class ReadAhead : public testing::TestWithParam<bool> {};
-INSTANTIATE_TEST_SUITE_P(Background, ReadAhead, testing::Bool());
-
-TEST_P(ReadAhead, UsesAllPiecesInOrder) {
-  for (int count : {0, 1, 2, 3, 4, 100}) {
-    int read = 0;
-    std::vector<int> used;
-    read_ahead<int>(
-        GetParam(),
-        [&](int& piece) {
-          piece = read;
-          return read++ < count;
-        },
-        [&](const int& piece) { used.push_back(piece); });
-    ASSERT_EQ(used.size(), static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) EXPECT_EQ(used[static_cast<std::size_t>(i)], i);
-    EXPECT_EQ(read, count + 1);
-  }
-}
-
-TEST_P(ReadAhead, ThrowsWhatReadAndUseThrow) {
-  const auto endless = [](int&) { return true; };
-  EXPECT_THROW(read_ahead<int>(GetParam(), endless, [](const int&) { throw std::runtime_error("use"); }),
-               std::runtime_error);
-  EXPECT_THROW(read_ahead<int>(
-                   GetParam(), [](int&) -> bool { throw std::runtime_error("read"); }, [](const int&) {}),
-               std::runtime_error);
 }
 
 }  // namespace
