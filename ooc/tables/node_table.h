@@ -24,7 +24,6 @@ class NodeTable {
       : nodes_(nodes), slots_(std::bit_ceil(2 * most + 1), kNone) {
     add_new();
   }
-  explicit NodeTable(const std::vector<SweepKey>& nodes) : NodeTable(nodes, nodes.size()) {}
 
   // Adds the nodes that have come since the last call.
   void add_new() {
@@ -65,9 +64,11 @@ class NodeTable {
 // MEMORY: bytes(), 2 to 4 per node more.
 class SparseNodeTable {
  public:
-  // REQUIRES: as NodeTable.
+  // REQUIRES: `nodes` outlives this, unchanged.
   explicit SparseNodeTable(const std::vector<SweepKey>& nodes)
-      : table_(nodes), words_(word_count(nodes.size())), shift_(64 - std::countr_zero(words_.size() * kWordBits)) {
+      : table_(nodes, nodes.size()),
+        words_(word_count(nodes.size())),
+        shift_(64 - std::countr_zero(words_.size() * kWordBits)) {
     for (const SweepKey& node : nodes) words_[bit(node) / kWordBits] |= std::uint64_t{1} << bit(node) % kWordBits;
   }
 

@@ -23,7 +23,7 @@ namespace reeb::ooc {
 // THROWS: what these throw.   MEMORY: four items.
 template <class Item, class Read, class Prepare, class Use>
 void read_ahead(bool background, const Read& read, const Prepare& prepare, const Use& use) {
-  // Starting a thread is worth it for more work than this.
+  // Starting a thread is worth it only for more work than this.
   constexpr auto kLittle = std::chrono::milliseconds(2);
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
@@ -43,9 +43,10 @@ void read_ahead(bool background, const Read& read, const Prepare& prepare, const
   std::condition_variable changed;
 
   using Lock = std::unique_lock<std::mutex>;
-  const auto work = [&](Lock& lock, const auto& function, Slot& slot, State after) {
+  // Calls function(item), which returns the state of the slot afterwards.
+  const auto work = [&](Lock& lock, Slot& slot, const auto& function) {
     lock.unlock();
-    function(slot.item);
+    const State after = function(slot.item);
     lock.lock();
     slot.state = after;
     changed.notify_one();
@@ -54,19 +55,18 @@ void read_ahead(bool background, const Read& read, const Prepare& prepare, const
     const auto slot = std::ranges::find(slots, State::kRead, &Slot::state);
     if (slot == slots.end()) return false;
     slot->state = State::kTaken;
-    work(lock, prepare, *slot, State::kPrepared);
+    work(lock, *slot, [&](Item& item) {
+      prepare(item);
+      return State::kPrepared;
+    });
     return true;
   };
   const auto read_all = [&](Lock& lock) {
     for (std::size_t at = 0; !has_failed;) {
       Slot& slot = slots[at];
       if (!at_end && slot.state == State::kEmpty) {
-        bool is_read = false;
-        work(
-            lock, [&](Item& item) { is_read = read(item); }, slot, State::kEmpty);
-        at_end = !is_read;
-        if (at_end) continue;
-        slot.state = State::kRead;
+        work(lock, slot, [&](Item& item) { return read(item) ? State::kRead : State::kEmpty; });
+        at_end = slot.state == State::kEmpty;
         at = (at + 1) % slots.size();
       } else if (!prepare_any(lock)) {
         if (at_end) return;
@@ -78,7 +78,10 @@ void read_ahead(bool background, const Read& read, const Prepare& prepare, const
     for (std::size_t at = 0; !has_failed;) {
       Slot& slot = slots[at];
       if (slot.state == State::kPrepared) {
-        work(lock, use, slot, State::kEmpty);
+        work(lock, slot, [&](Item& item) {
+          use(item);
+          return State::kEmpty;
+        });
         at = (at + 1) % slots.size();
       } else if (!prepare_any(lock)) {
         if (at_end && slot.state == State::kEmpty) return;
