@@ -148,7 +148,8 @@ GuessedRun run_guessing(RunContext& run, FirstReading& reading, const MemoryPlan
                        {.chunk = chunk,
                         .allowance_bytes = plan.table_bytes,
                         .most_open_vertices = plan.most_live_vertices(),
-                        .threads = plan.threads},
+                        // Two threads are busy with the rest of the pipeline.
+                        .threads = plan.threads > 2 ? plan.threads : 1},
                        place_of(start));
   result = glue_chunks(run, source, plan, {.origin = ChunkOrigin::kGuessed, .chunk = chunk}, std::move(result));
   const UseGuesses& guesses = source.guesses();

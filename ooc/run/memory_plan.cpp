@@ -7,6 +7,7 @@
 
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
+#include "ooc/threads/work_in_order.h"
 
 namespace reeb::ooc {
 namespace {
@@ -46,18 +47,16 @@ constexpr std::uint64_t kLeastTriangleBytes = 40;
 // One thread with a budget below this: chunks of a useful size matter more than parallel ones.
 constexpr std::uint64_t kEnoughForThreads = 12 * kMiB;
 // Chunks are sized for this many threads, however many there are: an embedding shows where chunks were cut.
-constexpr std::uint64_t kPlannedThreads = 2;
+constexpr unsigned kPlannedThreads = 2;
 
-// Bytes per triangle of a chunk if this many chunks are swept at a time. With several threads, one more chunk is in
-// flight.
-std::uint64_t chunk_bytes(std::uint64_t threads, std::size_t functions) {
-  return threads * kSweepBytes + (threads == 1 ? 1 : threads + 1) * functions * kFlightBytes + kSourceBytes;
+// Bytes per triangle of a chunk with this many threads, each of which can sweep a chunk.
+std::uint64_t chunk_bytes(unsigned threads, std::size_t functions) {
+  return threads * kSweepBytes + items_for(threads) * functions * kFlightBytes + kSourceBytes;
 }
 
 // The same per vertex.
-std::uint64_t chunk_vertex_bytes(std::uint64_t threads, std::size_t functions) {
-  return threads * kSweepVertexBytes + (threads == 1 ? 1 : threads + 1) * functions * kFlightVertexBytes +
-         kSourceVertexBytes;
+std::uint64_t chunk_vertex_bytes(unsigned threads, std::size_t functions) {
+  return threads * kSweepVertexBytes + items_for(threads) * functions * kFlightVertexBytes + kSourceVertexBytes;
 }
 
 std::uint64_t machine_bytes() {

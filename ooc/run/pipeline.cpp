@@ -1,21 +1,19 @@
 #include "ooc/run/pipeline.h"
 
-#include <tbb/concurrent_queue.h>
-#include <tbb/parallel_pipeline.h>
-
 #include <algorithm>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "libreeb/engine/glue.h"
 #include "libreeb/grid/box_glue.h"
 #include "libreeb/grid/box_sweep.h"
 #include "libreeb/sweep/chunk_sweep.h"
-#include "ooc/threads/kept_arena.h"
-#include "ooc/threads/pipeline_order.h"
+#include "ooc/threads/work_in_order.h"
 
 namespace reeb::ooc {
 namespace {
@@ -86,10 +84,7 @@ class Pipeline {
   }
 
   PipelineResult run() {
-    if (options_.threads <= 1)
-      run_alone();
-    else
-      run_in_parallel();
+    run_steps();
     PipelineResult result{maximum_, {}, restored_vertex_bound_};
     for (const auto& glue : glues_) result.removed_pairs.push_back(glue->removed_pairs());
     if constexpr (std::is_same_v<Kind, Triangles>)
@@ -137,12 +132,6 @@ class Pipeline {
     slot.reservation.resize(slot.item.memory_bytes());
   }
 
-  void sweep_in_parallel(Slot& slot, Sweepers<Sweep>& sweepers) {
-    auto sweeper = sweepers.take();
-    sweep(slot, *sweeper);
-    sweepers.give_back(std::move(sweeper));
-  }
-
   SweepOptions sweep_options(const WorkItem& item, std::size_t function) const {
     return options_.choose_sweep ? options_.choose_sweep(function, item.end.ranges[function]) : SweepOptions{};
   }
@@ -178,55 +167,19 @@ class Pipeline {
       options_.between_chunks(slot.item.end, [this](StateWriter& out) { save(out); });
   }
 
-  void run_alone() {
-    Sweeper<Sweep> sweeper(budget_);
-    Slot slot(budget_);
-    while (read(slot)) {
-      sweep(slot, sweeper);
-      glue(slot);
-    }
-  }
-
-  void run_in_parallel() {
-    const std::size_t in_flight = options_.threads + 1;
-    std::vector<std::unique_ptr<Slot>> slots;
-    tbb::concurrent_queue<Slot*> free_slots;
-    for (std::size_t i = 0; i < in_flight; ++i) {
-      slots.push_back(std::make_unique<Slot>(budget_));
-      free_slots.push(slots.back().get());
-    }
+  void run_steps() {
+    std::vector<Slot> slots;
+    slots.reserve(items_for(options_.threads));
+    while (slots.size() < items_for(options_.threads)) slots.emplace_back(budget_);
     Sweepers<Sweep> sweepers(budget_);
-    const PipelineOrder order;
-
-    const auto read_next = [&](tbb::flow_control& control_flow) -> Slot* {
-      PipelineOrder::begin_filter();
-      Slot* slot = nullptr;
-      free_slots.try_pop(slot);  // there are as many as tokens
-      const PipelineOrder::Filter filter(order, slot, &source_);
-      if (read(*slot)) return slot;
-      control_flow.stop();
-      return nullptr;
+    const auto sweep_slot = [&](Slot& slot) {
+      auto sweeper = sweepers.take();
+      sweep(slot, *sweeper);
+      sweepers.give_back(std::move(sweeper));
     };
-    const auto sweep_one = [&](Slot* slot) {
-      PipelineOrder::begin_filter();
-      const PipelineOrder::Filter filter(order, slot);
-      sweep_in_parallel(*slot, sweepers);
-      return slot;
-    };
-    const auto glue_one = [&](Slot* slot) {
-      PipelineOrder::begin_filter();
-      const PipelineOrder::Filter filter(order, slot, &glues_);
-      glue(*slot);
-      free_slots.push(slot);
-    };
-    using tbb::filter_mode;
-    const auto filters = tbb::make_filter<void, Slot*>(filter_mode::serial_in_order, read_next) &
-                         tbb::make_filter<Slot*, Slot*>(filter_mode::parallel, sweep_one) &
-                         tbb::make_filter<Slot*, void>(filter_mode::serial_in_order, glue_one);
-    run_in_kept_arena(options_.threads, [&] {
-      PipelineOrder::filters_are_made();
-      tbb::parallel_pipeline(in_flight, filters);
-    });
+    work_in_order(
+        options_.threads, std::span(slots), [this](Slot& slot) { return read(slot); }, sweep_slot,
+        [this](Slot& slot) { glue(slot); });
   }
 
   ChunkSource& source_;
