@@ -17,19 +17,19 @@
 namespace reeb::ooc {
 namespace {
 
-constexpr std::array<char, 8> kMagic = {'R', 'E', 'E', 'B', 'F', 'R', 'G', '\n'};
-constexpr std::uint64_t kVersion = 2;
+constexpr std::array<char, 8> kFragmentMagic = {'R', 'E', 'E', 'B', 'F', 'R', 'G', '\n'};
+constexpr std::uint64_t kFragmentVersion = 2;
 constexpr std::size_t kRecordsPerBlock = 4096;
 constexpr std::uint64_t kNodes = 1, kArcs = 2;  // kinds of blocks
 
-struct Header {
+struct FragmentHeader {
   std::array<char, 8> magic;
   std::uint64_t version;
   std::uint64_t state_bytes;
   std::uint64_t state_checksum;
   std::uint64_t checksum;  // of the header before
 };
-static_assert(sizeof(Header) == 40);
+static_assert(sizeof(FragmentHeader) == 40);
 
 struct BlockHeader {
   std::uint64_t kind, count, bytes;
@@ -90,7 +90,7 @@ io::File open_input(const std::string& path) {
 void write_fragment(const std::string& path, const OutputOptions& output, const PartInfo& info, const OpenPart& open,
                     SegmentStore& store) {
   io::AtomicFile file(path, {.existing = output.existing, .overwrites = true, .temp_folder = output.temp_folder});
-  Header header{kMagic, kVersion, 0, 0, 0};
+  FragmentHeader header{kFragmentMagic, kFragmentVersion, 0, 0, 0};
   file.out().append(io::object_bytes(header));
   StateFileWriter state(file.out());
   write_info(state, info);
@@ -103,7 +103,7 @@ void write_fragment(const std::string& path, const OutputOptions& output, const 
   file.commit();
 }
 
-bool is_fragment(const std::string& path) { return begins_with(path, kMagic); }
+bool is_fragment(const std::string& path) { return begins_with(path, kFragmentMagic); }
 
 void FragmentFile::fail(const std::string& why, std::uint64_t offset) const {
   throw Error(ErrorKind::kBadInput, "this fragment " + why, "make its part again with `reeb fragment`")
@@ -111,16 +111,16 @@ void FragmentFile::fail(const std::string& why, std::uint64_t offset) const {
 }
 
 FragmentFile::FragmentFile(const std::string& path) : file_(open_input(path)) {
-  Header header{};
+  FragmentHeader header{};
   if (file_.size() < sizeof(header)) {
     if (!is_fragment(path))
       throw Error(ErrorKind::kBadInput, "this is not a fragment", "fragments are made with `reeb fragment`").at(path);
     fail("was cut off", file_.size());
   }
   file_.read_at(0, std::as_writable_bytes(std::span(&header, 1)));
-  if (header.magic != kMagic)
+  if (header.magic != kFragmentMagic)
     throw Error(ErrorKind::kBadInput, "this is not a fragment", "fragments are made with `reeb fragment`").at(path);
-  if (header.version != kVersion)
+  if (header.version != kFragmentVersion)
     throw Error(ErrorKind::kBadInput, "this fragment is of another version of this program",
                 "make its part again with `reeb fragment`")
         .at(path);

@@ -16,11 +16,11 @@
 namespace reeb::ooc {
 namespace {
 
-constexpr std::array<char, 8> kMagic = {'R', 'E', 'E', 'B', 'N', 'A', 'M', '\n'};
-constexpr std::uint64_t kVersion = 1;
+constexpr std::array<char, 8> kNamesMagic = {'R', 'E', 'E', 'B', 'N', 'A', 'M', '\n'};
+constexpr std::uint64_t kNamesVersion = 1;
 constexpr std::size_t kRunsAtOnce = 4096;
 
-struct Header {
+struct NamesHeader {
   std::array<char, 8> magic;
   std::uint64_t version;
   std::uint64_t mesh_bytes, mesh_digest, reading;
@@ -29,15 +29,15 @@ struct Header {
   std::uint64_t runs_checksum;
   std::uint64_t checksum;  // of the header before
 };
-static_assert(sizeof(Header) == std::size_t{12} * 8);
+static_assert(sizeof(NamesHeader) == std::size_t{12} * 8);
 
 struct Run {
   std::uint64_t first, count;
 };
 
-Header header_of(const WholeMeshInfo& mesh, std::uint32_t part) {
-  return {kMagic,
-          kVersion,
+NamesHeader header_of(const WholeMeshInfo& mesh, std::uint32_t part) {
+  return {kNamesMagic,
+          kNamesVersion,
           mesh.bytes,
           mesh.digest,
           mesh.reading,
@@ -55,14 +55,14 @@ Header header_of(const WholeMeshInfo& mesh, std::uint32_t part) {
       .at(file.path(), std::to_string(offset));
 }
 
-Header read_header(const io::File& file, const WholeMeshInfo& mesh) {
-  Header header{};
+NamesHeader read_header(const io::File& file, const WholeMeshInfo& mesh) {
+  NamesHeader header{};
   if (file.size() < sizeof(header)) fail(file, "this file of names was cut off, or is not one", file.size());
   file.read_at(0, std::as_writable_bytes(std::span(&header, 1)));
-  if (header.magic != kMagic) fail(file, "this is not a file of names", 0);
-  if (header.version != kVersion) fail(file, "this file of names is of another version of this program", 0);
+  if (header.magic != kNamesMagic) fail(file, "this is not a file of names", 0);
+  if (header.version != kNamesVersion) fail(file, "this file of names is of another version of this program", 0);
   if (header.checksum != io::header_checksum(header)) fail(file, "this file of names is damaged", 0);
-  const Header own = header_of(mesh, 0);
+  const NamesHeader own = header_of(mesh, 0);
   if (header.mesh_bytes != own.mesh_bytes || header.mesh_digest != own.mesh_digest || header.reading != own.reading ||
       header.vertices != own.vertices || header.triangles != own.triangles)
     fail(file, "this file of names is of another mesh", 0);
@@ -76,7 +76,7 @@ Header read_header(const io::File& file, const WholeMeshInfo& mesh) {
 }
 
 // A file is read twice, so that nothing is used before the checksum is known to be right.
-void merge_names(const io::File& file, const Header& header, PagedTable<std::uint32_t>& table) {
+void merge_names(const io::File& file, const NamesHeader& header, PagedTable<std::uint32_t>& table) {
   std::vector<Run> runs;
   const auto read = [&](const auto& use) {
     for (std::uint64_t done = 0; done < header.runs; done += runs.size()) {
@@ -102,7 +102,7 @@ void merge_names(const io::File& file, const Header& header, PagedTable<std::uin
 
 }  // namespace
 
-bool is_names_file(const std::string& path) { return begins_with(path, kMagic); }
+bool is_names_file(const std::string& path) { return begins_with(path, kNamesMagic); }
 
 void visit_names(RunContext& run, WholeMesh& mesh, std::uint32_t part,
                  const std::function<void(std::uint64_t first, std::uint64_t count)>& visit) {
@@ -135,7 +135,7 @@ void visit_names(RunContext& run, WholeMesh& mesh, std::uint32_t part,
 std::uint64_t write_names(const std::string& path, const OutputOptions& output, RunContext& run, WholeMesh& mesh,
                           std::uint32_t part) {
   io::AtomicFile file(path, {.existing = output.existing, .overwrites = true, .temp_folder = output.temp_folder});
-  Header header = header_of(mesh.info, part);
+  NamesHeader header = header_of(mesh.info, part);
   file.out().append(io::object_bytes(header));
   io::RunningChecksum checksum;
   std::uint64_t names = 0;
@@ -158,7 +158,7 @@ PartUses read_names(std::span<const std::string> files, RunContext& run, const W
   for (const std::string& path : files) {
     io::check_input_file(path);
     const io::File file = io::File::open_for_reading(path);
-    const Header header = read_header(file, mesh.info);
+    const NamesHeader header = read_header(file, mesh.info);
     if (!by_part.emplace(header.part, path).second)
       throw Error(ErrorKind::kBadInput,
                   "the names of part " + std::to_string(header.part + 1) + " are here a second time",

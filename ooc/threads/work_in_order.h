@@ -13,7 +13,7 @@
 
 namespace reeb::ooc {
 
-// How many items keep this number of threads busy.
+// With this many items, hardly any of the threads waits for another one.
 constexpr std::size_t items_for(unsigned threads) { return threads <= 1 ? 1 : threads + std::size_t{2}; }
 
 // Calls read(item) until it returns false, prepare(item) for each item, and use(item) for each in order. At any time at
@@ -23,14 +23,14 @@ constexpr std::size_t items_for(unsigned threads) { return threads <= 1 ? 1 : th
 // second one reads, and all others prepare. WHY not a pipeline of TBB: there all threads take turns at reading and
 // using, and what these steps work with moves from cache to cache.
 //
-// THROWS: what these throw; of several threads, what was thrown first. Where no thread can be started, the others do
-// its work.
+// THROWS: what these throw; of several threads, what was thrown first. If a thread cannot be started, the others do its
+// work.
 template <class Item, class Read, class Prepare, class Use>
 void work_in_order(unsigned threads, std::span<Item> items, const Read& read, const Prepare& prepare, const Use& use) {
   std::mutex mutex;  // of all that follows
   std::condition_variable changed;
-  // Item i is in items[i % items.size()].
-  std::uint64_t read_items = 0, begun_items = 0, used_items = 0;  // begun: to be prepared
+  // Item i is in items[i % items.size()]. A thread has begun to prepare an item, or has prepared it.
+  std::uint64_t read_items = 0, begun_items = 0, used_items = 0;
   std::vector<bool> is_prepared(items.size(), false);
   bool is_reading = false, is_using = false, at_end = false;
   std::exception_ptr failure;
@@ -93,7 +93,7 @@ void work_in_order(unsigned threads, std::span<Item> items, const Read& read, co
     try {
       if (threads > 1) others.emplace_back([&] { work(try_read, try_prepare, try_use); });
       while (others.size() + 1 < threads) others.emplace_back([&] { work(try_prepare, try_read, try_use); });
-    } catch (const std::system_error&) {  // there are too many threads; the others do its work
+    } catch (const std::system_error&) {  // there are too many already
     }
     work(try_use, try_prepare, try_read);
   }
