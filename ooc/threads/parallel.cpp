@@ -15,7 +15,8 @@ namespace {
 
 // TBB's library is not instrumented. The thread sanitizer does not see that a loop's calls come after its start and
 // before its end, and would report a race for each. This states only what TBB guarantees, so that races between calls
-// are still found: all before publish(p) happens before all after a later observe(p). Empty without the sanitizer.
+// are still found: all before publish(p) happens before all after a later observe(p). Without the sanitizer, nothing is
+// done.
 #ifdef __SANITIZE_THREAD__
 void publish(char& place) { __tsan_release(&place); }
 void observe(char& place) { __tsan_acquire(&place); }

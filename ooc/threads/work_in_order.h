@@ -29,7 +29,7 @@ template <class Item, class Read, class Prepare, class Use>
 void work_in_order(unsigned threads, std::span<Item> items, const Read& read, const Prepare& prepare, const Use& use) {
   std::mutex mutex;  // of all that follows
   std::condition_variable changed;
-  // Item i is in items[i % items.size()]. A thread has begun to prepare an item, or has prepared it.
+  // Item i is in items[i % items.size()]. Begun are those that are being prepared, and all before.
   std::uint64_t read_items = 0, begun_items = 0, used_items = 0;
   std::vector<bool> is_prepared(items.size(), false);
   bool is_reading = false, is_using = false, at_end = false;

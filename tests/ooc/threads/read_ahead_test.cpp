@@ -35,6 +35,41 @@ TEST_P(ReadAhead, UsesAllPiecesInOrder) {
   }
 }
 
+struct Piece {
+  int number = 0, times_prepared = 0;
+};
+
+// Takes some time, which differs from call to call.
+void dawdle(unsigned seed) {
+  volatile unsigned x = seed;
+  for (unsigned i = (seed * 2654435761u) >> 21; i > 0; --i) x = x * 5 + i;
+}
+
+TEST_P(ReadAhead, PreparesEachPieceOnceBeforeItIsUsed) {
+  for (const unsigned slow : {0u, 1u, 2u}) {  // which of the functions takes longest
+    constexpr int kPieces = 2000;
+    int read = 0, used = 0;
+    read_ahead<Piece>(
+        GetParam(),
+        [&](Piece& piece) {
+          if (read == 0) std::this_thread::sleep_for(std::chrono::milliseconds(3));  // then there are two threads
+          if (slow == 0) dawdle(static_cast<unsigned>(read));
+          piece = {read, 0};
+          return read++ < kPieces;
+        },
+        [&](Piece& piece) {
+          if (slow == 1) dawdle(static_cast<unsigned>(piece.number));
+          ++piece.times_prepared;
+        },
+        [&](const Piece& piece) {
+          if (slow == 2) dawdle(static_cast<unsigned>(piece.number));
+          EXPECT_EQ(piece.number, used++);
+          EXPECT_EQ(piece.times_prepared, 1);
+        });
+    EXPECT_EQ(used, kPieces);
+  }
+}
+
 TEST_P(ReadAhead, TakesAnotherThreadOnlyInTheBackground) {
   std::set<std::thread::id> threads;
   int read = 0;

@@ -54,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(Settings, WorkInOrder,
                          });
 
 TEST_P(WorkInOrder, ReadsPreparesAndUsesEachItemOnceInOrder) {
-  for (const int slow : {0, 1, 2, 3})  // which of the steps takes longest
+  for (const int slow : {0, 1, 2, 3})  // which of the steps takes longest; 3: none
     for (const int count : {0, 1, 2, 3, 7, 500}) {
       int read = 0, used = 0;
       std::atomic<int> readers = 0, users = 0;
