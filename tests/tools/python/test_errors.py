@@ -530,10 +530,15 @@ print("the main thread ends")
 
 
 def test_the_end_of_python_waits_for_threads_that_compute(tmp_path):
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
     for run in range(3):
         command = [sys.executable, "-c", DAEMONS, str(tmp_path / f"{run}.reeb")]
-        ended = subprocess.run(command, capture_output=True, text=True, timeout=60)
+        ended = subprocess.run(
+            command, capture_output=True, text=True, timeout=60, env={**os.environ, "TMPDIR": str(temporary)}
+        )
         assert (ended.returncode, ended.stdout, ended.stderr) == (0, "the main thread ends\n", "")
+        assert list(temporary.iterdir()) == []
 
 
 def test_several_threads_compute_at_once():

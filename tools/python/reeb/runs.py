@@ -2,7 +2,6 @@
 
 import json
 import os
-import shutil
 import sys
 import tempfile
 from collections.abc import Iterable, Mapping
@@ -156,24 +155,23 @@ def _run(held, names, outputs, options, report):
         results = _reeb.compute(held, names, [path_bytes(path) for path in outputs], options, report)
         paths = [os.path.abspath(path) for path in outputs]
         return [_open_result({**result, "output": path}, path, None) for result, path in zip(results, paths)]
-    folder = tempfile.mkdtemp(prefix="reeb-", dir=options.get("temp_dir"))
-    try:
+    # Unlike mkdtemp, this removes the folder at the end of Python, too, where a daemon thread is stopped.
+    with tempfile.TemporaryDirectory(prefix="reeb-", dir=options.get("temp_dir")) as folder:
         outputs = [os.path.join(folder, f"{i}.reeb") for i in range(len(names))]
-        # Temporary files are beside the output.
-        results = _reeb.compute(held, names, outputs, {**options, "temp_dir": folder}, report)
+        try:
+            # Temporary files are beside the output.
+            results = _reeb.compute(held, names, outputs, {**options, "temp_dir": folder}, report)
+        except Error as error:
+            if error.path is None or not error.path.startswith(folder):
+                raise
+            error.message = error.message.removesuffix("; the graph itself was written")
+            raise without_path(error) from None
         graphs = []
         for result, path in zip(results, outputs):
             with open(path, "rb") as file:
                 graphs.append(_open_result({**result, "output": None}, None, file.read()))
             os.remove(path)
         return graphs
-    except Error as error:
-        if error.path is None or not error.path.startswith(folder):
-            raise
-        error.message = error.message.removesuffix("; the graph itself was written")
-        raise without_path(error) from None
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
 
 
 def _functions(f):
