@@ -1,7 +1,6 @@
 // How fast zstd packs and unpacks byte planes of arcs, by level. The segment level was chosen by it.
 #include <benchmark/benchmark.h>
 
-#include <cstring>
 #include <random>
 
 #include "io/file/zstd_codec.h"

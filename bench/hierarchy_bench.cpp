@@ -7,7 +7,6 @@
 
 #include <cstdlib>
 
-#include "libreeb/hierarchy/cancel.h"
 #include "libreeb/hierarchy/levels.h"
 #include "libreeb/hierarchy/pairing.h"
 #include "libreeb/noise/denoise.h"

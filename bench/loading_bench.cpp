@@ -10,7 +10,6 @@
 #include <map>
 #include <string>
 
-#include "libreeb/hierarchy/cancel.h"
 #include "libreeb/hierarchy/levels.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "ooc/reeb_writer/reeb_file_writer.h"

@@ -11,7 +11,6 @@
 #include "io/cells/tag_map.h"
 #include "io/text/entry_limit.h"
 #include "libreeb/base/count_text.h"
-#include "libreeb/base/error.h"
 
 namespace reeb::io {
 namespace {

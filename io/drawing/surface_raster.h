@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "io/drawing/colors.h"
 #include "io/drawing/png_image.h"
-#include "io/drawing/svg_text.h"
 
 namespace reeb::io {
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "io/events/stream_fault.h"
+
 namespace reeb::io {
 
 void FinalSet::open_page() {

@@ -9,8 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "io/events/stream_fault.h"
-
 namespace reeb::io {
 
 inline constexpr std::uint32_t kMaxVertices = 0x7FFFFFFF;

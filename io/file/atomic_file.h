@@ -6,7 +6,6 @@
 // file.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -7,7 +7,6 @@
 #include <boost/iostreams/categories.hpp>
 #include <boost/iostreams/filtering_streambuf.hpp>
 #include <boost/iostreams/read.hpp>
-#include <exception>
 #include <new>
 #include <string>
 #include <utility>

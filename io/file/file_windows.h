@@ -17,7 +17,6 @@
 #include <string_view>
 #include <vector>
 
-#include "io/file/file.h"
 #include "io/file/input_file.h"
 
 namespace reeb::io {

@@ -1,6 +1,5 @@
 #include "io/formats/foreign_format.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 

@@ -1,6 +1,5 @@
 #include "io/formats/format_names.h"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 

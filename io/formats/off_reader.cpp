@@ -6,8 +6,12 @@
 #include <string>
 #include <utility>
 
+#include "io/mesh/batch_reader.h"
 #include "io/mesh/scalar_bytes.h"
+#include "io/mesh/simplex_assembler.h"
+#include "io/text/cursor.h"
 #include "io/text/hints.h"
+#include "io/text/text_cursor.h"
 #include "libreeb/base/count_text.h"
 
 namespace reeb::io {

@@ -1,17 +1,13 @@
 // OFF (Geomview): [ST][C][N][4][n]OFF, ASCII (float64) and "BINARY" (big endian, float32).
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string_view>
 
-#include "io/mesh/batch_reader.h"
-#include "io/mesh/simplex_assembler.h"
-#include "io/text/cursor.h"
-#include "io/text/text_cursor.h"
+#include "io/file/content_source.h"
+#include "libreeb/port/mesh_reader.h"
 
 namespace reeb::io {
 

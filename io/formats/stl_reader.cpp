@@ -1,6 +1,5 @@
 #include "io/formats/stl_reader.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

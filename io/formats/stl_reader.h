@@ -1,7 +1,6 @@
 // STL, ASCII (float64) and binary. Corners with equal coordinates are one vertex.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>

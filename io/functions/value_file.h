@@ -32,7 +32,7 @@ class ValueFile {
 // `has_gaps`: some vertices are left out, and their values need not be finite.
 // THROWS: Error{kBadInput} if the file cannot be read, or is known not to have one value per vertex.
 std::unique_ptr<ValueFile> open_values(const std::string& path, std::optional<std::uint64_t> vertex_count,
-                                       bool has_gaps = false);
+                                       bool has_gaps);
 
 // Raw float64 values in an open file.
 std::unique_ptr<ValueFile> raw_values(std::shared_ptr<const InputFile> file);

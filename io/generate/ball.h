@@ -1,8 +1,6 @@
 // A ball of tetrahedra with straight tunnels drilled through it.
 #pragma once
 
-#include <array>
-
 #include "io/generate/patched_grid.h"
 #include "io/generate/shape.h"
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 
 #include "io/generate/patched_grid.h"
 #include "io/generate/shape.h"

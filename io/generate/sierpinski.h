@@ -18,7 +18,7 @@ class SierpinskiSimplex : public Shape {
   static constexpr unsigned kMinDimension = 2, kMaxDimension = 5;
 
   // Chooses the level with the number of triangles nearest to `triangles`. REQUIRES: a dimension within the limits.
-  SierpinskiSimplex(unsigned dimension, std::uint64_t triangles, bool whole_cells = false);
+  SierpinskiSimplex(unsigned dimension, std::uint64_t triangles, bool whole_cells);
 
   unsigned dimension() const override;
   std::uint64_t cell_count() const override { return cells_; }

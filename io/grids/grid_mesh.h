@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "libreeb/port/grid_reader.h"
 #include "libreeb/port/mesh_reader.h"

@@ -6,6 +6,7 @@
 #include "io/images/header_text.h"
 #include "io/text/hints.h"
 #include "io/text/text_cursor.h"
+#include "io/text/words.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {

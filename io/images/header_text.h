@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "io/file/content_source.h"
-#include "io/text/words.h"
 
 namespace reeb::io {
 

@@ -1,7 +1,6 @@
 // An image as its header describes it: the grid, and how the values are stored.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -11,7 +10,8 @@
 #include <vector>
 
 #include "io/decoding/byte_input.h"
-#include "io/images/voxel_type.h"
+#include "io/file/content_source.h"
+#include "io/mesh/scalar_bytes.h"
 #include "libreeb/port/grid_reader.h"
 
 namespace reeb::io {

@@ -7,6 +7,7 @@
 #include "io/decoding/hex_input.h"
 #include "io/decoding/inflate_input.h"
 #include "io/images/value_stream.h"
+#include "io/images/voxel_type.h"
 #include "io/text/hints.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"

@@ -1,10 +1,11 @@
 #include "io/images/meta_image.h"
 
-#include <algorithm>
 #include <optional>
 
 #include "io/images/header_text.h"
+#include "io/images/voxel_type.h"
 #include "io/text/hints.h"
+#include "io/text/words.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 

@@ -9,6 +9,7 @@
 #include "io/images/header_text.h"
 #include "io/text/hints.h"
 #include "io/text/text_cursor.h"
+#include "io/text/words.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 

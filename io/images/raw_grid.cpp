@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "io/images/voxel_type.h"
 #include "io/text/text_cursor.h"
 #include "io/text/words.h"
 #include "libreeb/base/error.h"

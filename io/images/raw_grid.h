@@ -1,7 +1,6 @@
 // Files without a header: the user says what they hold.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/images/voxel_type.h"
 #include "io/text/hints.h"
 #include "io/text/text_cursor.h"
 #include "io/text/words.h"

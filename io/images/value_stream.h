@@ -8,7 +8,7 @@
 #include <string>
 
 #include "io/decoding/byte_input.h"
-#include "io/images/voxel_type.h"
+#include "io/mesh/scalar_bytes.h"
 
 namespace reeb::io {
 

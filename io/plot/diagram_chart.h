@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "libreeb/base/value_range.h"
 #include "libreeb/hierarchy/hierarchy.h"
 
 namespace reeb::io {

@@ -1,7 +1,6 @@
 #include "io/plot/graph_picture.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "io/drawing/canvas.h"
 #include "io/plot/node_marks.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "io/plot/gnuplot_text.h"
 #include "io/text/number_text.h"

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <ostream>
 #include <string>
-#include <vector>
 
 #include "io/smc/adaptive_model.h"
 #include "io/text/cursor.h"

@@ -5,8 +5,6 @@
 // no sense, it overrules the mark.
 #pragma once
 
-#include <cstdint>
-
 #include "io/events/stream_event.h"
 #include "io/text/cursor.h"
 

@@ -5,6 +5,7 @@
 
 #include "io/events/stream_fault.h"
 #include "io/mesh/scalar_bytes.h"
+#include "io/streaming/block_head.h"
 
 namespace reeb::io {
 

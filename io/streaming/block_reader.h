@@ -6,7 +6,6 @@
 
 #include "io/events/index_rules.h"
 #include "io/events/stream_event.h"
-#include "io/streaming/block_head.h"
 #include "io/text/cursor.h"
 
 namespace reeb::io {

@@ -1,11 +1,9 @@
 #include "io/streaming/create_stream.h"
 
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
 #include "io/events/event_text.h"
-#include "io/events/format_limits.h"
 #include "io/file/atomic_file.h"
 #include "io/file/file_name.h"
 #include "io/file/file_ostream.h"

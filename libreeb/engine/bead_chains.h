@@ -15,7 +15,7 @@
 #include "libreeb/containers/growing_array.h"
 #include "libreeb/containers/recycling_array.h"
 #include "libreeb/graph/bucket_sums.h"
-#include "libreeb/graph/reeb_graph.h"
+#include "libreeb/graph/settled_node.h"
 
 namespace reeb {
 

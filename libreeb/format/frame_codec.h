@@ -7,9 +7,12 @@
 #include <span>
 #include <vector>
 
+#include "libreeb/format/file_header.h"
 #include "libreeb/format/reeb_format.h"
+#include "libreeb/graph/arc_version.h"
+#include "libreeb/graph/bucket.h"
+#include "libreeb/graph/settled_node.h"
 #include "libreeb/hierarchy/hierarchy.h"
-#include "libreeb/port/graph_sink.h"
 
 namespace reeb {
 

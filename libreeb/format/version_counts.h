@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "libreeb/format/frame_codec.h"
-#include "libreeb/hierarchy/hierarchy.h"
+#include "libreeb/graph/arc_version.h"
 
 namespace reeb {
 

@@ -2,7 +2,6 @@
 // replaced.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <utility>
 
 #include "libreeb/graph/bucket_lists.h"
 #include "libreeb/graph/packed_buckets.h"

@@ -2,7 +2,6 @@
 // (docs/SEMANTICS.md, Noise removal).
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "libreeb/graph/arc_buckets.h"

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
-#include <span>
-#include <utility>
 
 #include "libreeb/repair/exact_sign.h"
 

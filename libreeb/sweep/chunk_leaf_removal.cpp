@@ -1,7 +1,5 @@
 #include "libreeb/sweep/chunk_leaf_removal.h"
 
-#include <algorithm>
-
 namespace reeb {
 
 std::size_t ChunkLeafRemoval::run(SweepGraph& graph, const SweptChunk& swept, double noise_below) {

@@ -10,9 +10,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "libreeb/base/ids.h"
+#include "libreeb/base/sweep_key.h"
+#include "libreeb/graph/bucket.h"
 #include "libreeb/graph/bucket_sums.h"
 #include "libreeb/graph/reeb_graph.h"
-#include "libreeb/port/graph_sink.h"
+#include "libreeb/graph/settled_node.h"
 #include "libreeb/sweep/chunk.h"
 #include "libreeb/sweep/sweep_options.h"
 

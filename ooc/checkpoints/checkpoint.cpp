@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <vector>
 
 #include "io/file/atomic_file.h"
 #include "io/file/checksum.h"

@@ -2,13 +2,13 @@
 
 #include <array>
 #include <functional>
-#include <utility>
 
 #include "io/file/atomic_file.h"
 #include "io/file/checksum.h"
 #include "libreeb/base/error.h"
 #include "ooc/distributed/fragment_file.h"
 #include "ooc/distributed/names_file.h"
+#include "ooc/distributed/part_run.h"
 #include "ooc/run/explained_error.h"
 
 namespace reeb::ooc {

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "libreeb/port/vertex_function.h"
-#include "ooc/distributed/part_run.h"
+#include "ooc/distributed/part_info.h"
 #include "ooc/run/compute.h"
+#include "ooc/run/compute_result.h"
 
 namespace reeb::ooc {
 

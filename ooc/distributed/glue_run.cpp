@@ -8,9 +8,11 @@
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/parts/part_glue.h"
 #include "ooc/distributed/fragment_file.h"
+#include "ooc/distributed/part_union.h"
 #include "ooc/run/explained_error.h"
 #include "ooc/run/freed_memory.h"
 #include "ooc/run/glued_chunks.h"
+#include "ooc/run/run_context.h"
 #include "ooc/run/second_stage.h"
 #include "ooc/run/stopwatch.h"
 

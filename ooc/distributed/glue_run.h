@@ -6,14 +6,14 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
+#include "libreeb/base/ids.h"
 #include "libreeb/base/memory_budget.h"
+#include "libreeb/port/vertex_function.h"
 #include "ooc/distributed/part_info.h"
-#include "ooc/distributed/part_union.h"
+#include "ooc/run/compute.h"
 #include "ooc/run/compute_result.h"
 #include "ooc/run/first_stage.h"
-#include "ooc/run/run_context.h"
 
 namespace reeb::ooc {
 

@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "libreeb/parts/part_set.h"
+#include "libreeb/base/ids.h"
 #include "libreeb/port/indexed_mesh.h"
+#include "libreeb/port/simplex_counts.h"
 
 namespace reeb::ooc {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "ooc/distributed/part_info.h"
+#include "ooc/distributed/part_uses.h"
 #include "ooc/distributed/whole_mesh.h"
 #include "ooc/reeb_writer/frame_writer.h"
 #include "ooc/run/run_context.h"

@@ -1,7 +1,5 @@
 #include "ooc/distributed/part_chunks.h"
 
-#include <algorithm>
-
 namespace reeb::ooc {
 
 PartChunks::PartChunks(ChunkSource& triangles, IndexedMesh& mesh, PartUses& uses, std::uint32_t part,

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "io/file/file.h"
-#include "libreeb/base/error.h"
 #include "libreeb/graph/bucket.h"
 #include "ooc/chunks/last_use_sidecar.h"
 

@@ -1,8 +1,5 @@
 #include "ooc/distributed/part_run.h"
 
-#include <utility>
-
-#include "libreeb/base/error.h"
 #include "ooc/chunks/chunk_source.h"
 #include "ooc/chunks/last_use_sidecar.h"
 #include "ooc/distributed/part_chunks.h"

@@ -1,7 +1,6 @@
 // Chunks of a mesh without finalization, made while it is read for the first time.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 

@@ -1,7 +1,5 @@
 #include "ooc/patches/ball_clusters.h"
 
-#include <cstddef>
-
 #include "libreeb/containers/union_find.h"
 #include "ooc/patches/near_balls.h"
 

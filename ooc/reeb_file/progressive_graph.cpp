@@ -1,11 +1,9 @@
 #include "ooc/reeb_file/progressive_graph.h"
 
 #include <algorithm>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "libreeb/base/error.h"
 #include "ooc/reeb_file/frame_file.h"
 
 namespace reeb::ooc {

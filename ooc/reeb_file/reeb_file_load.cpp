@@ -3,7 +3,6 @@
 #include <numeric>
 #include <tuple>
 
-#include "libreeb/base/error.h"
 #include "ooc/reeb_file/frame_file.h"
 #include "ooc/reeb_file/pair_reading.h"
 #include "ooc/reeb_file/reeb_file.h"

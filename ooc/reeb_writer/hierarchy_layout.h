@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "libreeb/format/file_header.h"
 #include "libreeb/format/frame_codec.h"
-#include "libreeb/format/reeb_format.h"
 #include "ooc/reeb_writer/hierarchy_source.h"
 #include "ooc/reeb_writer/record_source.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "libreeb/graph/arc_buckets.h"
-#include "libreeb/hierarchy/hierarchy.h"
+#include "libreeb/graph/arc_version.h"
 
 namespace reeb::ooc {
 

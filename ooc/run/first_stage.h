@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "libreeb/port/simplex_counts.h"
+#include "ooc/checkpoints/checkpoint.h"
 #include "ooc/run/compute.h"
-#include "ooc/run/pipeline.h"
+#include "ooc/run/compute_result.h"
 #include "ooc/run/run_context.h"
 
 namespace reeb::ooc {

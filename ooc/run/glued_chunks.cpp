@@ -7,6 +7,7 @@
 
 #include "ooc/chunks/divided_chunks.h"
 #include "ooc/run/freed_memory.h"
+#include "ooc/run/pipeline.h"
 #include "ooc/run/stopwatch.h"
 
 namespace reeb::ooc {

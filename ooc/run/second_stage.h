@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "ooc/run/compute.h"
+#include "ooc/run/compute_result.h"
 #include "ooc/run/first_stage.h"
 #include "ooc/run/run_context.h"
 

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "io/file/atomic_file.h"
 #include "libreeb/base/error.h"
 #include "libreeb/format/mesh_match.h"
 #include "libreeb/hierarchy/cancel.h"

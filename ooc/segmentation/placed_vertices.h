@@ -1,7 +1,6 @@
 // Vertices with the arcs on which they lie, taken in any order and delivered by index.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>

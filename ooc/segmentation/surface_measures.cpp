@@ -1,7 +1,6 @@
 #include "ooc/segmentation/surface_measures.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace reeb::ooc {

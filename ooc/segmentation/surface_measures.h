@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "io/file/temp_dir.h"
+#include "libreeb/base/ids.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/graph/arc_measures.h"
 #include "libreeb/graph/reeb_graph.h"
-#include "libreeb/port/mesh_reader.h"
 #include "libreeb/segmentation/arc_chains.h"
 #include "libreeb/segmentation/arc_paths.h"
 #include "libreeb/segmentation/chain_measures.h"

@@ -4,11 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "io/file/file.h"
-#include "io/file/temp_dir.h"
 
 namespace reeb::ooc {
 

@@ -7,7 +7,6 @@
 
 #include "libreeb/graph/packed_lists.h"
 #include "libreeb/noise/denoise.h"
-#include "ooc/stored_graph/arc_payload.h"
 #include "ooc/stored_graph/change_builder.h"
 #include "ooc/stored_graph/noise_places.h"
 #include "ooc/stored_graph/pass_room.h"

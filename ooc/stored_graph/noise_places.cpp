@@ -4,7 +4,6 @@
 
 #include "libreeb/containers/growing_array.h"
 #include "libreeb/containers/union_find.h"
-#include "libreeb/graph/packed_buckets.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/noise/noise_scope.h"
 #include "ooc/stored_graph/arc_payload.h"

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "io/file/temp_dir.h"
 #include "libreeb/base/memory_budget.h"

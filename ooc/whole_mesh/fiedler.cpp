@@ -5,7 +5,6 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <vector>
 

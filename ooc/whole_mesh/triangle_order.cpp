@@ -4,7 +4,6 @@
 #include <array>
 #include <utility>
 
-#include "libreeb/base/error.h"
 #include "libreeb/base/sweep_key.h"
 #include "ooc/sorting/external_sort.h"
 #include "ooc/tables/triangle_log.h"

@@ -11,7 +11,6 @@
 #include "io/file/file_name.h"
 #include "io/file/temp_dir.h"
 #include "libreeb/base/count_text.h"
-#include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tools/arguments/image_options.h"

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,7 +30,6 @@
 #include "tools/program/input_kind.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
-#include "tools/program/quantity.h"
 #include "tools/program/whole_levels.h"
 #include "tools/program/wrapping.h"
 

@@ -4,7 +4,6 @@
 #include <memory>
 #include <string>
 
-#include "libreeb/base/error.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/library/run_files.h"

@@ -1,19 +1,19 @@
 // The curves of loops, found in patches of the mesh around the nodes of their pairs.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "io/file/temp_dir.h"
+#include "libreeb/base/ids.h"
 #include "libreeb/base/memory_budget.h"
+#include "libreeb/defects/loop_contours.h"
 #include "libreeb/defects/loop_curves.h"
-#include "ooc/patches/ball_grid.h"
+#include "libreeb/defects/surface_patch.h"
 #include "tools/defects/loop_list.h"
 #include "tools/defects/valued_mesh.h"
 

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <set>
-#include <string>
 #include <vector>
 
 #include "libreeb/defects/defect_lengths.h"

@@ -5,7 +5,6 @@
 #include <ostream>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "ooc/census/mesh_census.h"
 #include "tools/defects/find_defects.h"

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "libreeb/base/memory_budget.h"
-#include "libreeb/base/sweep_key.h"
 #include "libreeb/base/value_range.h"
 #include "libreeb/format/mesh_match.h"
 #include "libreeb/graph/settled_node.h"

@@ -12,7 +12,6 @@
 
 #include "io/file/file.h"
 #include "io/file/file_ostream.h"
-#include "io/text/output_buffer.h"
 #include "io/text/words.h"
 #include "libreeb/base/error.h"
 #include "tools/defects/cut_patches.h"

@@ -3,7 +3,6 @@
 
 #include <span>
 #include <string>
-#include <vector>
 
 #include "io/file/atomic_file.h"
 #include "tools/defects/defect_text.h"

@@ -2,7 +2,6 @@
 
 #include "io/file/content_source.h"
 #include "io/formats/open_mesh.h"
-#include "libreeb/base/error.h"
 #include "ooc/whole_mesh/workspace.h"
 
 namespace reeb::tools {

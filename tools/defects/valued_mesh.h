@@ -56,6 +56,6 @@ class ValuedMesh {
 };
 
 // THROWS: Error{kBadInput}.
-[[noreturn]] void refuse_cells(const std::string& mesh, bool is_image = false);
+[[noreturn]] void refuse_cells(const std::string& mesh, bool is_image);
 
 }  // namespace reeb::tools

@@ -1,7 +1,5 @@
 #include "tools/library/fragment.h"
 
-#include <utility>
-
 #include "libreeb/base/error.h"
 #include "tools/library/run_files.h"
 #include "tools/library/run_input.h"

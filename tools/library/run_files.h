@@ -11,7 +11,7 @@
 
 #include "io/file/atomic_file.h"
 #include "io/formats/open_mesh.h"
-#include "io/functions/function_source.h"
+#include "io/functions/function_spec.h"
 #include "tools/library/compute.h"
 
 namespace reeb {

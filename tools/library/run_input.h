@@ -1,7 +1,6 @@
 // A mesh and its functions, opened for a run.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>

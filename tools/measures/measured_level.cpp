@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "libreeb/base/error.h"
+#include "ooc/run/segment.h"
 #include "tools/library/run_input.h"
 #include "tools/measures/open_segmentation.h"
 #include "tools/program/progress.h"

@@ -1,14 +1,11 @@
 // A level of a .reeb file together with what is measured on its mesh.
 #pragma once
 
-#include <cstdint>
 #include <string>
-#include <vector>
 
 #include "io/formats/open_mesh.h"
-#include "libreeb/graph/arc_measures.h"
 #include "ooc/reeb_file/reeb_file.h"
-#include "ooc/run/segment.h"
+#include "ooc/segmentation/surface_measures.h"
 
 namespace reeb::tools {
 

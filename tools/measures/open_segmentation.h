@@ -3,12 +3,11 @@
 
 #include <cstdint>
 
-#include "io/functions/function_spec.h"
+#include "io/formats/open_mesh.h"
+#include "libreeb/port/mesh_reader.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "ooc/run/compute.h"
-#include "ooc/run/segment.h"
 #include "tools/library/run_files.h"
-#include "tools/library/run_input.h"
 
 namespace reeb::tools {
 

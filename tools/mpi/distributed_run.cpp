@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "io/file/atomic_file.h"
-#include "libreeb/base/error.h"
 #include "libreeb/parts/part_glue.h"
 #include "ooc/distributed/fragment_file.h"
 #include "ooc/distributed/glue_run.h"
 #include "ooc/distributed/open_part_state.h"
 #include "ooc/distributed/part_run.h"
+#include "ooc/distributed/part_union.h"
 #include "ooc/run/second_stage.h"
 #include "ooc/run/stopwatch.h"
 #include "tools/library/run_files.h"

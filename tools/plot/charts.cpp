@@ -9,7 +9,6 @@
 #include "io/plot/graph_picture.h"
 #include "io/plot/loop_chart.h"
 #include "libreeb/base/count_text.h"
-#include "libreeb/base/error.h"
 #include "tools/plot/child_program.h"
 
 namespace reeb::tools {

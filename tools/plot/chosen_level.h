@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 
-#include "io/drawing/svg_text.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tools/arguments/arguments.h"
 

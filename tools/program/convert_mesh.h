@@ -8,7 +8,7 @@
 
 #include "io/file/atomic_file.h"
 #include "io/formats/open_mesh.h"
-#include "io/functions/function_source.h"
+#include "io/functions/function_spec.h"
 #include "libreeb/base/memory_budget.h"
 #include "tools/program/progress.h"
 

@@ -3,6 +3,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "libreeb/base/error.h"
 #include "tools/python/module.h"
 #include "tools/python/without_gil.h"
 

@@ -3,8 +3,6 @@
 
 #include <pybind11/pybind11.h>
 
-#include "libreeb/base/error.h"
-
 namespace reeb::python {
 
 // compute(), segment(), defects(), and the meshes in memory that they take.

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "libreeb/base/ids.h"
 #include "libreeb/graph/settled_node.h"
 
 namespace reeb::tools {

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <span>
-#include <utility>
 
 #include "io/file/file_name.h"
 #include "io/formats/create_mesh.h"
 #include "io/ply/ply_header.h"
-#include "libreeb/base/error.h"
 
 namespace reeb::tools {
 namespace {

@@ -5,7 +5,6 @@
 #include <span>
 #include <utility>
 
-#include "libreeb/base/error.h"
 #include "libreeb/repair/curve_cut.h"
 #include "libreeb/repair/curve_detour.h"
 #include "libreeb/repair/nearby_loop.h"

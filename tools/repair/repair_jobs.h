@@ -1,7 +1,6 @@
 // Cuts a mesh along many curves, and closes boundaries: in patches around them, as many at a time as memory holds.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>

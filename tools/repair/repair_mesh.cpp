@@ -10,7 +10,6 @@
 #include "io/file/content_source.h"
 #include "io/formats/open_mesh.h"
 #include "libreeb/base/count_text.h"
-#include "libreeb/base/error.h"
 #include "tools/defects/surface_census.h"
 #include "tools/repair/mesh_output.h"
 #include "tools/repair/repair_jobs.h"

@@ -11,7 +11,6 @@
 #include "io/file/content_source.h"
 #include "io/file/file.h"
 #include "io/functions/function_spec.h"
-#include "io/text/text_cursor.h"
 #include "io/text/words.h"
 #include "libreeb/base/error.h"
 

@@ -4,10 +4,8 @@
 #include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "libreeb/base/value_range.h"
-#include "libreeb/format/file_header.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tools/defects/find_defects.h"
 

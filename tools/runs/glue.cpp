@@ -12,6 +12,7 @@
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
 #include "ooc/distributed/glue_run.h"
+#include "ooc/distributed/part_union.h"
 #include "tools/arguments/options.h"
 #include "tools/library/run_files.h"
 #include "tools/program/compute_report.h"

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "libreeb/base/count_text.h"
-#include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
 #include "ooc/reeb_file/reeb_file.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdlib>
 
-#include "io/functions/function_source.h"
+#include "io/functions/function_spec.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "tools/arguments/image_options.h"
