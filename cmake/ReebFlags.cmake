@@ -31,25 +31,21 @@ if(REEB_WERROR)
 endif()
 target_include_directories(reeb_flags INTERFACE "${PROJECT_SOURCE_DIR}")
 
-# reeb_join(TARGET [EXCEPT ROOM...]): with REEB_JOIN_SOURCES, the sources of a room are compiled as one, at most eight
-# at a time. Code for inlined functions is made once, which halves the time of a build with sanitizers and saves a third
-# of others. Names in unnamed namespaces of a room must differ then; rooms where each file has its own Header are
-# excepted.
+# reeb_join(TARGET): with REEB_JOIN_SOURCES, the sources of a room are compiled as one, at most eight at a time. Code for
+# inlined functions is made once, which halves the time of a build with sanitizers and saves a third of others. Names in
+# unnamed namespaces of a room must differ then.
 function(reeb_join target)
   if(NOT REEB_JOIN_SOURCES)
     return()
   endif()
-  cmake_parse_arguments(arg "" "" "EXCEPT" ${ARGN})
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   get_target_property(sources ${target} SOURCES)
   foreach(source ${sources})
     cmake_path(GET source PARENT_PATH folder)
     cmake_path(GET folder FILENAME room)
-    if(NOT room IN_LIST arg_EXCEPT)
-      math(EXPR group_${room} "${group_${room}} + 1")
-      math(EXPR part "${group_${room}} / 8")
-      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${room}_${part})
-    endif()
+    math(EXPR group_${room} "${group_${room}} + 1")
+    math(EXPR part "${group_${room}} / 8")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${room}_${part})
   endforeach()
 endfunction()
 

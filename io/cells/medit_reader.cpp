@@ -15,7 +15,7 @@
 namespace reeb::io {
 namespace {
 
-constexpr TextStyle kStyle = {.comments = true};
+constexpr TextStyle kMeditStyle = {.comments = true};
 
 struct MeditCells {
   std::string_view keyword;
@@ -77,12 +77,12 @@ void read_version(TextCursor& text, MeshInfo& info) {
   info.float32 = version == 1;
 }
 
-MeditIndex read_index(const ContentSource& content) {
+MeditIndex read_medit_index(const ContentSource& content) {
   MeditIndex index;
   index.info.format = "Medit";
   index.info.vertex_count = index.info.simplex_count = 0;
   index.info.file_bytes = content.file_bytes();
-  TextCursor text(content.reopen(), kStyle);
+  TextCursor text(content.reopen(), kMeditStyle);
   EntryLimit limit("sections of cells");
   bool vertices = false, dimension = false;
   while (text.more()) {
@@ -183,7 +183,7 @@ class MeditInput final : public CellInput {
     const MeditSection& section = index_->sections[section_];
     left_ = section.count;
     // Packed content moves forward only.
-    if (!text_ || section.offset < text_->bytes().offset()) text_.emplace(content_->reopen(), kStyle);
+    if (!text_ || section.offset < text_->bytes().offset()) text_.emplace(content_->reopen(), kMeditStyle);
     text_->move_to_line(section.offset, section.line);
   }
 
@@ -215,7 +215,7 @@ bool is_medit(std::string_view head) {
 std::unique_ptr<MeshReader> open_medit(std::unique_ptr<ContentSource> content, const ReadOptions& options) {
   refuse_properties(options, "Medit", content->name());
   const std::shared_ptr<const ContentSource> shared = std::move(content);
-  const auto index = std::make_shared<const MeditIndex>(read_index(*shared));
+  const auto index = std::make_shared<const MeditIndex>(read_medit_index(*shared));
   return read_cells([shared, index](const ReadOptions&) { return std::make_unique<MeditInput>(shared, index); },
                     options);
 }

@@ -351,7 +351,7 @@ class MshInput final : public CellInput {
 };
 
 // Reads everything once: what follows needs to know whether there are higher-order cells, and where values are.
-MshIndex read_index(const ContentSource& content) {
+MshIndex read_msh_index(const ContentSource& content) {
   MshIndex index;
   MshInput input(content, nullptr, {});
   const MshFormat& format = input.format();
@@ -382,7 +382,7 @@ MshIndex read_index(const ContentSource& content) {
 
 std::unique_ptr<MeshReader> open_msh(std::unique_ptr<ContentSource> content, const ReadOptions& options) {
   const std::shared_ptr<const ContentSource> shared = std::move(content);
-  const auto index = std::make_shared<const MshIndex>(read_index(*shared));
+  const auto index = std::make_shared<const MshIndex>(read_msh_index(*shared));
   return read_cells(
       [shared, index](const ReadOptions& of_vertices) {
         return std::make_unique<MshInput>(*shared, index, of_vertices);

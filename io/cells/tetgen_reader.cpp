@@ -18,7 +18,7 @@
 namespace reeb::io {
 namespace {
 
-constexpr TextStyle kStyle = {.comments = true};
+constexpr TextStyle kTetgenStyle = {.comments = true};
 
 std::uint64_t read_count(TextCursor& text, const char* what) {
   text.require_more(what);
@@ -68,7 +68,7 @@ CellsHead read_cells_head(TextCursor& text, bool faces) {
 class TetgenInput final : public CellInput {
  public:
   TetgenInput(const ContentSource& nodes, const ContentSource& cells, bool faces, const ReadOptions& options)
-      : nodes_(nodes.reopen(), kStyle), cells_(cells.reopen(), kStyle) {
+      : nodes_(nodes.reopen(), kTetgenStyle), cells_(cells.reopen(), kTetgenStyle) {
     node_head_ = read_node_head(nodes_);
     cells_head_ = read_cells_head(cells_, faces);
     std::vector<PointArray> arrays;

@@ -8,7 +8,7 @@ namespace reeb::io {
 namespace {
 
 // More coordinates would not fit into one TextRecord.
-constexpr unsigned kMaxDimension = 128;
+constexpr unsigned kMaxWrittenDimension = 128;
 
 class OffWriter : public MeshWriter {
  public:
@@ -65,7 +65,7 @@ class OffWriter : public MeshWriter {
 }  // namespace
 
 std::unique_ptr<MeshWriter> create_off(const std::string& path, const MeshWriterOptions& options) {
-  if (options.dimension == 0 || options.dimension > kMaxDimension)
+  if (options.dimension == 0 || options.dimension > kMaxWrittenDimension)
     throw Error(ErrorKind::kBadInput,
                 "OFF cannot be written with " + std::to_string(options.dimension) + " coordinates per vertex",
                 "write .ply")

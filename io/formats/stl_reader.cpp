@@ -68,7 +68,7 @@ bool AsciiStlReader::advance(MeshBatch& batch) {
     if (!loop_ended_) end_loop(batch);
     in_facet_ = false;
   } else if (keyword != "outer" || !in_facet_) {
-    text_.fail(quoted(keyword) + " does not belong here in an STL file", kCutOrDamagedHereHint);
+    text_.fail(in_quotes(keyword) + " does not belong here in an STL file", kCutOrDamagedHereHint);
   }
   text_.skip_line();
   return true;

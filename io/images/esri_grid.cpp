@@ -19,9 +19,9 @@ struct LowEnd {
   double first_centre(double cell) const { return centre ? value : value + cell / 2; }
 };
 
-class Header {
+class EsriHeader {
  public:
-  Header(std::string_view head, const std::string& name) : text_(head, name), name_(name) {}
+  EsriHeader(std::string_view head, const std::string& name) : text_(head, name), name_(name) {}
 
   Image parse() {
     Image image;
@@ -73,10 +73,10 @@ class Header {
       dy_ = cell(value);
     } else if (name == "nodata_value") {
       const auto parsed = parse_number<double>(value);
-      if (!parsed.ok) text_.fail(value, quoted(value) + " is not a number (NODATA_value)", kHeaderHint);
+      if (!parsed.ok) text_.fail(value, in_quotes(value) + " is not a number (NODATA_value)", kHeaderHint);
       info.nodata = parsed.value + 0.0;
     } else {
-      text_.fail("a header has no field " + quoted(words[0]), kHeaderHint);
+      text_.fail("a header has no field " + in_quotes(words[0]), kHeaderHint);
     }
   }
 
@@ -100,6 +100,6 @@ bool is_esri_grid(std::string_view head) {
   return words.size() == 2 && (lower_case(words[0]) == "ncols" || lower_case(words[0]) == "nrows");
 }
 
-Image parse_esri_grid(ContentSource& source) { return Header(source.view(0), source.name()).parse(); }
+Image parse_esri_grid(ContentSource& source) { return EsriHeader(source.view(0), source.name()).parse(); }
 
 }  // namespace reeb::io

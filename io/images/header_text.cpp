@@ -41,7 +41,7 @@ bool HeaderText::next_line() {
 double HeaderText::number(std::string_view word, const char* what) const {
   const auto parsed = parse_number<double>(word);
   if (!parsed.ok || !std::isfinite(parsed.value))
-    fail(word, quoted(word) + " is not a finite number (" + what + ")", kHeaderHint);
+    fail(word, in_quotes(word) + " is not a finite number (" + what + ")", kHeaderHint);
   return parsed.value + 0.0;
 }
 
@@ -50,7 +50,7 @@ std::int64_t HeaderText::integer(std::string_view word, const char* what) const 
   const auto parsed = std::from_chars(word.data(), word.data() + word.size(), value);
   if (parsed.ec == std::errc::result_out_of_range) fail(word, std::string("too large: ") + what, kHeaderHint);
   if (parsed.ec != std::errc{} || parsed.ptr != word.data() + word.size())
-    fail(word, quoted(word) + " is not an integer (" + what + ")", kHeaderHint);
+    fail(word, in_quotes(word) + " is not an integer (" + what + ")", kHeaderHint);
   return value;
 }
 

@@ -13,15 +13,15 @@ namespace reeb::io {
 namespace {
 
 // MET_LONG has 4 bytes wherever it was written.
-constexpr TypeName kTypes[] = {
+constexpr TypeName kMetaTypes[] = {
     {"met_char", ScalarType::kInt8},         {"met_uchar", ScalarType::kUint8},   {"met_short", ScalarType::kInt16},
     {"met_ushort", ScalarType::kUint16},     {"met_int", ScalarType::kInt32},     {"met_uint", ScalarType::kUint32},
     {"met_long", ScalarType::kInt32},        {"met_ulong", ScalarType::kUint32},  {"met_long_long", ScalarType::kInt64},
     {"met_ulong_long", ScalarType::kUint64}, {"met_float", ScalarType::kFloat32}, {"met_double", ScalarType::kFloat64}};
 
-class Header {
+class MetaHeader {
  public:
-  Header(std::string_view head, const std::string& name) : text_(head, name), name_(name) {}
+  MetaHeader(std::string_view head, const std::string& name) : text_(head, name), name_(name) {}
 
   Image parse() {
     while (!ended_) {
@@ -57,7 +57,8 @@ class Header {
     const std::string name = lower_case(without_blanks(text_.line().substr(0, equal)));
     const std::string_view value = without_blanks(text_.line().substr(equal + 1));
     if (name == "objecttype") {
-      if (lower_case(value) != "image") text_.fail(value, "this is not an image but " + quoted(value), "name an image");
+      if (lower_case(value) != "image")
+        text_.fail(value, "this is not an image but " + in_quotes(value), "name an image");
     } else if (name == "ndims") {
       // The lists of numbers are as long as the first one says.
       if (dimensions_ != 0) text_.fail(value, "NDims is given twice", kHeaderHint);
@@ -96,9 +97,9 @@ class Header {
   void take_type(std::string_view value) {
     std::string name = lower_case(value);
     if (name.ends_with("_array")) name.resize(name.size() - 6);
-    type_ = find_type(kTypes, name);
+    type_ = find_type(kMetaTypes, name);
     if (!type_)
-      text_.fail(value, "values of type " + quoted(value) + " are not read",
+      text_.fail(value, "values of type " + in_quotes(value) + " are not read",
                  "integers of 1, 2, 4 and 8 bytes, MET_FLOAT and MET_DOUBLE are read");
   }
 
@@ -129,7 +130,8 @@ class Header {
   bool flag(std::string_view value) const {
     const std::string lower = lower_case(value);
     if (lower == "true" || lower == "1") return true;
-    if (lower != "false" && lower != "0") text_.fail(value, quoted(value) + " is neither True nor False", kHeaderHint);
+    if (lower != "false" && lower != "0")
+      text_.fail(value, in_quotes(value) + " is neither True nor False", kHeaderHint);
     return false;
   }
 
@@ -176,6 +178,6 @@ bool is_meta_image(std::string_view head) {
   return name == "ObjectType" || name == "NDims";
 }
 
-Image parse_meta_image(ContentSource& source) { return Header(source.view(0), source.name()).parse(); }
+Image parse_meta_image(ContentSource& source) { return MetaHeader(source.view(0), source.name()).parse(); }
 
 }  // namespace reeb::io

@@ -32,9 +32,9 @@ constexpr Datatype kDatatypes[] = {
     {768, ScalarType::kUint32, 1},   {1024, ScalarType::kInt64, 1}, {1280, ScalarType::kUint64, 1},
     {1792, ScalarType::kFloat64, 2}, {2304, ScalarType::kUint8, 4}};
 
-class Header {
+class NiftiHeader {
  public:
-  Header(std::string_view head, const std::string& name) : head_(head), name_(name) {
+  NiftiHeader(std::string_view head, const std::string& name) : head_(head), name_(name) {
     if (head.size() < kHeaderBytes) fail(head.size(), "the file ends inside its header");
     if (load_scalar<std::int32_t>(head.data(), false) != 348) big_endian_ = true;
     if (get<std::int32_t>(0) != 348) fail(0, "the header does not begin with its size, 348");
@@ -176,6 +176,6 @@ bool is_nifti(std::string_view head) {
   return magic == "n+1\0"sv || magic == "ni1\0"sv;
 }
 
-Image parse_nifti(ContentSource& source) { return Header(source.view(0), source.name()).parse(); }
+Image parse_nifti(ContentSource& source) { return NiftiHeader(source.view(0), source.name()).parse(); }
 
 }  // namespace reeb::io

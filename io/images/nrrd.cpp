@@ -28,30 +28,30 @@ constexpr std::array<std::string_view, 6> kTimeSpaces = {"rast",
                                                          "left-anterior-superior-time",
                                                          "left-posterior-superior-time"};
 
-constexpr TypeName kTypes[] = {{"signed char", ScalarType::kInt8},    {"char", ScalarType::kInt8},
-                               {"unsigned char", ScalarType::kUint8}, {"uchar", ScalarType::kUint8},
-                               {"short", ScalarType::kInt16},         {"unsigned short", ScalarType::kUint16},
-                               {"ushort", ScalarType::kUint16},       {"int", ScalarType::kInt32},
-                               {"unsigned", ScalarType::kUint32},     {"uint", ScalarType::kUint32},
-                               {"long long", ScalarType::kInt64},     {"longlong", ScalarType::kInt64},
-                               {"ulonglong", ScalarType::kUint64},    {"unsigned long long", ScalarType::kUint64},
-                               {"float", ScalarType::kFloat32},       {"double", ScalarType::kFloat64},
-                               {"int8", ScalarType::kInt8},           {"uint8", ScalarType::kUint8},
-                               {"int16", ScalarType::kInt16},         {"uint16", ScalarType::kUint16},
-                               {"int32", ScalarType::kInt32},         {"uint32", ScalarType::kUint32},
-                               {"int64", ScalarType::kInt64},         {"uint64", ScalarType::kUint64}};
+constexpr TypeName kNrrdTypes[] = {{"signed char", ScalarType::kInt8},    {"char", ScalarType::kInt8},
+                                   {"unsigned char", ScalarType::kUint8}, {"uchar", ScalarType::kUint8},
+                                   {"short", ScalarType::kInt16},         {"unsigned short", ScalarType::kUint16},
+                                   {"ushort", ScalarType::kUint16},       {"int", ScalarType::kInt32},
+                                   {"unsigned", ScalarType::kUint32},     {"uint", ScalarType::kUint32},
+                                   {"long long", ScalarType::kInt64},     {"longlong", ScalarType::kInt64},
+                                   {"ulonglong", ScalarType::kUint64},    {"unsigned long long", ScalarType::kUint64},
+                                   {"float", ScalarType::kFloat32},       {"double", ScalarType::kFloat64},
+                                   {"int8", ScalarType::kInt8},           {"uint8", ScalarType::kUint8},
+                                   {"int16", ScalarType::kInt16},         {"uint16", ScalarType::kUint16},
+                                   {"int32", ScalarType::kInt32},         {"uint32", ScalarType::kUint32},
+                                   {"int64", ScalarType::kInt64},         {"uint64", ScalarType::kUint64}};
 
 std::optional<ScalarType> nrrd_type(std::string_view text) {
   std::string name = lower_case(text);
   if (name.ends_with("_t")) name.resize(name.size() - 2);
   if (name.starts_with("signed ") && name != "signed char") name.erase(0, 7);
   if (name.ends_with(" int")) name.resize(name.size() - 4);
-  return find_type(kTypes, name);
+  return find_type(kNrrdTypes, name);
 }
 
-class Header {
+class NrrdHeader {
  public:
-  Header(std::string_view head, const std::string& name) : text_(head, name), name_(name) {}
+  NrrdHeader(std::string_view head, const std::string& name) : text_(head, name), name_(name) {}
 
   Image parse() {
     text_.next_line();  // the magic
@@ -110,7 +110,7 @@ class Header {
       axes_.resize(dimension_);
     } else if (name == "type") {
       type_ = nrrd_type(value);
-      if (!type_) text_.fail(value, "values of type " + quoted(value) + " are not read", kTypeHint);
+      if (!type_) text_.fail(value, "values of type " + in_quotes(value) + " are not read", kTypeHint);
     } else if (name == "encoding") {
       encoding_ = lower_case(value);
     } else if (name == "endian") {
@@ -286,7 +286,7 @@ class Header {
       encoding_ = "ascii";
       image.packing = Packing::kText;
     } else {
-      fail_whole("data of the encoding " + quoted(encoding_) + " are not read");
+      fail_whole("data of the encoding " + in_quotes(encoding_) + " are not read");
     }
     if (image.packing != Packing::kText && byte_size(image.type) > 1 && !big_endian_)
       fail_whole("the header has no endian, which values of more than one byte need");
@@ -320,6 +320,6 @@ class Header {
 
 bool is_nrrd(std::string_view head) { return head.starts_with("NRRD000"); }
 
-Image parse_nrrd(ContentSource& source) { return Header(source.view(0), source.name()).parse(); }
+Image parse_nrrd(ContentSource& source) { return NrrdHeader(source.view(0), source.name()).parse(); }
 
 }  // namespace reeb::io

@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::string_view kMagic = "\x93NUMPY";
 
-class Header {
+class NumpyParser {
  public:
-  Header(std::string_view head, std::string name) : name_(std::move(name)) {
+  NumpyParser(std::string_view head, std::string name) : name_(std::move(name)) {
     const std::size_t length_bytes = head.size() > 6 && head[6] == 1 ? 2 : 4;
     if (head.size() < 8 + length_bytes) fail(head.size(), "the file ends inside its header");
     if (head[6] < 1 || head[6] > 3) fail(6, "version " + std::to_string(head[6]) + " of the format is not read");
@@ -74,7 +74,7 @@ class Header {
         {"f4", ScalarType::kFloat32}, {"f8", ScalarType::kFloat64}};
     const auto* const found = std::ranges::find(kTypes, type, [](const auto& known) { return known.first; });
     if (found == std::end(kTypes) || std::string_view("<>|=").find(word[0]) == std::string_view::npos)
-      fail(word, "values of type " + quoted(word) + " are not read",
+      fail(word, "values of type " + in_quotes(word) + " are not read",
            "save the array as integers of 1, 2, 4 or 8 bytes, float32 or float64");
     header.type = found->second;
   }
@@ -89,7 +89,7 @@ class Header {
       left.remove_prefix(std::min(comma + 1, left.size()));
       if (word.ends_with('L')) word.remove_suffix(1);  // of Python 2
       const auto size = whole_number<std::uint64_t>(word);
-      if (!size) fail(word, "the shape has " + quoted(word) + ", which is not a size", kHint);
+      if (!size) fail(word, "the shape has " + in_quotes(word) + ", which is not a size", kHint);
       header.shape.push_back(*size);
     }
     const std::string_view order = value("fortran_order");
@@ -117,7 +117,9 @@ std::string numpy_header(std::uint64_t count) {
 
 bool is_numpy(std::string_view head) { return head.starts_with(kMagic); }
 
-NumpyHeader parse_numpy_header(std::string_view head, const std::string& name) { return Header(head, name).parse(); }
+NumpyHeader parse_numpy_header(std::string_view head, const std::string& name) {
+  return NumpyParser(head, name).parse();
+}
 
 Image parse_numpy(ContentSource& source) {
   NumpyHeader header = parse_numpy_header(source.view(0), source.name());

@@ -67,7 +67,7 @@ class TextValues final : public ValueStream {
     while (done < values.size() && skip_blanks()) {
       const std::string_view word = token();
       const auto number = parse_number<double>(word);
-      if (!number.ok) fail(quoted(word) + " is not a number (a value should be here)");
+      if (!number.ok) fail(in_quotes(word) + " is not a number (a value should be here)");
       values[done++] = number.value + 0.0;
     }
     return done;

@@ -47,9 +47,9 @@ class ArrayPath {
 };
 
 // Reads the document up to the array that is wanted, if it is in the document, else up to the appended data.
-class Header final : public XmlParser::Handler {
+class VtiHeader final : public XmlParser::Handler {
  public:
-  explicit Header(ContentSource& source) : source_(source), xml_(source, *this) {}
+  explicit VtiHeader(ContentSource& source) : source_(source), xml_(source, *this) {}
 
   Image parse();
 
@@ -136,7 +136,7 @@ class ArrayText final : public ByteInput, private XmlParser::Handler {
   std::size_t next_ = 0;
 };
 
-Image Header::parse() {
+Image VtiHeader::parse() {
   while (xml_.advance()) {
   }
   if (!has_image_ || !has_piece_) xml_.fail("the file has no ImageData with a Piece", kHint);
@@ -168,7 +168,7 @@ Image Header::parse() {
   return image;
 }
 
-bool Header::start(const std::string& name, const XmlAttributes& attributes) {
+bool VtiHeader::start(const std::string& name, const XmlAttributes& attributes) {
   path_.start(name);
   if (path_.path() == "/VTKFile") {
     take_file(attributes);
@@ -193,13 +193,14 @@ bool Header::start(const std::string& name, const XmlAttributes& attributes) {
   return true;
 }
 
-void Header::take_file(const XmlAttributes& attributes) {
+void VtiHeader::take_file(const XmlAttributes& attributes) {
   if (attribute_of(attributes, "type") != "ImageData")
-    xml_.fail("this is not an image but " + quoted(attribute_of(attributes, "type")), "name a file of type ImageData");
+    xml_.fail("this is not an image but " + in_quotes(attribute_of(attributes, "type")),
+              "name a file of type ImageData");
   kind_ = read_vtk_xml_kind(attributes, xml_);
 }
 
-void Header::take_image(const XmlAttributes& attributes) {
+void VtiHeader::take_image(const XmlAttributes& attributes) {
   if (has_image_) xml_.fail("the file has two images", "write each into a file of its own");
   has_image_ = true;
   extent_ = extent(attribute_of(attributes, "WholeExtent"));
@@ -209,7 +210,7 @@ void Header::take_image(const XmlAttributes& attributes) {
   direction_ = numbers<9>(attributes, "Direction", direction_);
 }
 
-bool Header::take_array(const XmlAttributes& attributes) {
+bool VtiHeader::take_array(const XmlAttributes& attributes) {
   PointDataArray array{attribute_of(attributes, "Name"),
                        attribute_of(attributes, "type"),
                        attribute_of(attributes, "format"),
@@ -226,8 +227,8 @@ bool Header::take_array(const XmlAttributes& attributes) {
 }
 
 template <std::size_t count>
-std::array<double, count> Header::numbers(const XmlAttributes& attributes, const char* name,
-                                          const std::array<double, count>& otherwise) const {
+std::array<double, count> VtiHeader::numbers(const XmlAttributes& attributes, const char* name,
+                                             const std::array<double, count>& otherwise) const {
   const std::string text = attribute_of(attributes, name);
   if (text.empty()) return otherwise;
   const auto words = split_words(text);
@@ -242,7 +243,7 @@ std::array<double, count> Header::numbers(const XmlAttributes& attributes, const
   return result;
 }
 
-std::array<std::int64_t, 6> Header::extent(const std::string& text) const {
+std::array<std::int64_t, 6> VtiHeader::extent(const std::string& text) const {
   const auto words = split_words(text);
   std::array<std::int64_t, 6> result{};
   bool good = words.size() == 6;
@@ -258,15 +259,16 @@ std::array<std::int64_t, 6> Header::extent(const std::string& text) const {
   return result;
 }
 
-void Header::take_storage(Image& image, std::size_t number) {
+void VtiHeader::take_storage(Image& image, std::size_t number) {
   const PointDataArray& array = arrays_[number];
   const auto type = vtk_scalar_type(array.type);
   const auto refuse = [&](const std::string& what) {
     throw Error(ErrorKind::kBadInput, what, kHint).at(source_.name(), std::to_string(array.line) + ":1");
   };
-  if (!type) refuse("values of type " + quoted(array.type) + " are not read");
+  if (!type) refuse("values of type " + in_quotes(array.type) + " are not read");
   const unsigned components = array.components.empty() ? 1 : whole_number<unsigned>(array.components).value_or(0);
-  if (components - 1 > 4095) refuse("the array has " + quoted(array.components) + " components; 1 to 4,096 are read");
+  if (components - 1 > 4095)
+    refuse("the array has " + in_quotes(array.components) + " components; 1 to 4,096 are read");
   image.info.components = components;
   std::array<std::uint64_t, 3> sizes{};
   for (std::size_t k = 0; k < 3; ++k) sizes[k] = static_cast<std::uint64_t>(extent_[2 * k + 1] - extent_[2 * k]) + 1;
@@ -287,7 +289,7 @@ void Header::take_storage(Image& image, std::size_t number) {
     };
     return;
   }
-  if (!appended && array.format != "binary") refuse("data of the format " + quoted(array.format) + " are not read");
+  if (!appended && array.format != "binary") refuse("data of the format " + in_quotes(array.format) + " are not read");
   const VtkDataKind kind{kind_.packing, kind_.wide_heads, kind_.big_endian, values * byte_size(image.type)};
   if (kind.packing != BlockPacking::kNone) image.info.format += kind.packing == BlockPacking::kZlib ? " zlib" : " lz4";
   image.least_bytes = least_stored_bytes(kind);
@@ -324,6 +326,6 @@ bool is_vti(std::string_view head) {
          tag.find("type='ImageData'") != std::string_view::npos;
 }
 
-Image parse_vti(ContentSource& source) { return Header(source).parse(); }
+Image parse_vti(ContentSource& source) { return VtiHeader(source).parse(); }
 
 }  // namespace reeb::io

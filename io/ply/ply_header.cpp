@@ -87,7 +87,7 @@ class HeaderParser {
     const bool is_text = std::ranges::none_of(
         keyword, [](char c) { return static_cast<unsigned char>(c) < 32 || static_cast<unsigned char>(c) == 127; });
     if (!is_text || encoding || second == "list" || (whole && !third.empty() && (type || number)) || !saw_format_)
-      throw Error(ErrorKind::kBadInput, quoted(keyword) + " is not a PLY header line", kPlyHeaderHint)
+      throw Error(ErrorKind::kBadInput, in_quotes(keyword) + " is not a PLY header line", kPlyHeaderHint)
           .at(text_.source().name(), position);
     ++header_.unknown_lines;
   }
@@ -102,7 +102,8 @@ class HeaderParser {
     else if (encoding == "binary_big_endian")
       header_.encoding = PlyEncoding::kBigEndian;
     else
-      text_.fail("unknown PLY encoding " + quoted(encoding), "PLY is ascii, binary_little_endian or binary_big_endian");
+      text_.fail("unknown PLY encoding " + in_quotes(encoding),
+                 "PLY is ascii, binary_little_endian or binary_big_endian");
   }
 
   void parse_element() {
@@ -138,7 +139,7 @@ class HeaderParser {
   ScalarType type_named(std::string_view name) {
     const auto type = find_type(kTypeNames, name);
     if (!type)
-      text_.fail("unknown PLY type " + quoted(name),
+      text_.fail("unknown PLY type " + in_quotes(name),
                  "the types are char uchar short ushort int uint float double, or int8 ... float64");
     return *type;
   }

@@ -174,8 +174,8 @@ void TextCursor::fail_digits(const char* what, const std::string& hint) {
 void TextCursor::fail_number(std::string_view token, const char* what) const {
   if (token.empty()) fail(std::string("the line ends where a ") + what + " should be", kCutOrDamagedHereHint);
   if (parse_number<double>(token).ok)
-    fail(std::string("a ") + what + " cannot be " + quoted(token), "fix this value in the file");
-  fail(quoted(token) + " is not a number (a " + what + " should be here)", kCutOrDamagedHereHint);
+    fail(std::string("a ") + what + " cannot be " + in_quotes(token), "fix this value in the file");
+  fail(in_quotes(token) + " is not a number (a " + what + " should be here)", kCutOrDamagedHereHint);
 }
 
 std::string TextCursor::position() const { return std::to_string(marked_line_) + ":" + std::to_string(marked_column_); }

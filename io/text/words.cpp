@@ -2,7 +2,7 @@
 
 namespace reeb::io {
 
-std::string quoted(std::string_view word) {
+std::string in_quotes(std::string_view word) {
   constexpr std::size_t kShown = 40;
   std::string text = "\"";
   text.append(word.substr(0, kShown));

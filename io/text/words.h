@@ -9,8 +9,8 @@
 
 namespace reeb::io {
 
-// The word as messages show it: its first 40 characters, in quotes.
-std::string quoted(std::string_view word);
+// The word as messages show it: its first 40 characters, in quotes. (std::quoted would be found beside a `quoted`.)
+std::string in_quotes(std::string_view word);
 // The value of a hexadecimal digit, or -1.
 int hex_digit(char c);
 // The text with each %XX as the byte that these hexadecimal digits are.

@@ -68,7 +68,7 @@ class LegacyIndexer {
     if (keyword == "DATASET") return read_dataset();
     if (keyword == "METADATA") return skip_metadata();
     if (keyword == "FIELD") return read_field();
-    if (dataset_.empty()) text_.fail(quoted(keyword) + " cannot come before DATASET");
+    if (dataset_.empty()) text_.fail(in_quotes(keyword) + " cannot come before DATASET");
     if (keyword == "POINTS") return read_points();
     if (keyword == "CELLS" && unstructured_) return (void)cells_.emplace(read_cells());
     if (keyword == "CELL_TYPES" && unstructured_) return read_cell_types();
@@ -81,7 +81,7 @@ class LegacyIndexer {
       return;
     }
     if (!unstructured_ && read_polygons(keyword)) return;
-    if (!read_attribute(keyword)) text_.fail(quoted(keyword) + " does not belong here in a VTK file");
+    if (!read_attribute(keyword)) text_.fail(in_quotes(keyword) + " does not belong here in a VTK file");
   }
 
   void read_dataset() {
@@ -208,7 +208,7 @@ class LegacyIndexer {
     if (type == "STRING") return text_.skip_strings(text_.product(components, tuples));
     const bool bits = type == "BIT";
     const auto scalar = scalar_type(type);
-    if (!scalar && !bits) text_.fail(quoted(type) + " is not a type of values");
+    if (!scalar && !bits) text_.fail(in_quotes(type) + " is not a type of values");
     read_values_here(name, scalar.value_or(ScalarType::kUint8), bits, components, tuples);
   }
   void read_values(const std::string& name, ScalarType type, bool bits, std::uint64_t components,

@@ -34,7 +34,7 @@ std::string LegacyText::word() {
 std::uint64_t LegacyText::number(const char* what) {
   const std::string text = word();
   const auto value = whole_number<std::uint64_t>(text);
-  if (!value || *value > kMostNumbers) fail(std::string("a ") + what + " cannot be " + quoted(text));
+  if (!value || *value > kMostNumbers) fail(std::string("a ") + what + " cannot be " + in_quotes(text));
   return *value;
 }
 

@@ -117,7 +117,7 @@ void NumberStream::skip(std::uint64_t count) {
 
 void NumberStream::fail_token(std::string_view token) const {
   if (token.empty()) fail(std::string("an array ends where a ") + what_ + " should be", kCutOrDamagedHint);
-  fail(std::string("a ") + what_ + " cannot be " + quoted(token), kDamagedHereHint);
+  fail(std::string("a ") + what_ + " cannot be " + in_quotes(token), kDamagedHereHint);
 }
 
 void NumberStream::fail(const std::string& what, const std::string& hint) const {

@@ -15,7 +15,7 @@
 namespace reeb::io {
 namespace {
 
-constexpr std::size_t kBufferBytes = std::size_t{64} << 10;
+constexpr std::size_t kColumnBufferBytes = std::size_t{64} << 10;
 
 class VtkMeshWriter : public MeshWriter {
  public:
@@ -25,8 +25,9 @@ class VtkMeshWriter : public MeshWriter {
         file_(path, {.existing = options.existing, .overwrites = true, .temp_folder = options.temp_folder}) {
     const TempDir temp(options.temp_folder.empty() ? TempDir::default_folder(path) : options.temp_folder);
     for (std::size_t k = 0; k < options.property_names.size(); ++k)
-      properties_.emplace_back(temp.create_unnamed("point data"), kBufferBytes);
-    for (std::size_t k = 0; k < most_corners(); ++k) cells_.emplace_back(temp.create_unnamed("cells"), kBufferBytes);
+      properties_.emplace_back(temp.create_unnamed("point data"), kColumnBufferBytes);
+    for (std::size_t k = 0; k < most_corners(); ++k)
+      cells_.emplace_back(temp.create_unnamed("cells"), kColumnBufferBytes);
     file_.out().append(head());
     file_.out().append("<Points>\n<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n");
   }

@@ -130,7 +130,7 @@ class XmlIndexer final : private XmlParser::Handler {
     if (text.empty()) return std::nullopt;
     const auto value = whole_number<std::uint64_t>(text);
     if (!value || *value >> 56 != 0)
-      xml_.fail(std::string(name) + " is not a count but " + quoted(text), kCutOrDamagedHint);
+      xml_.fail(std::string(name) + " is not a count but " + in_quotes(text), kCutOrDamagedHint);
     return value;
   }
   std::uint64_t needed_count(const XmlAttributes& attributes, const char* name) const {
