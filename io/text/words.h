@@ -9,7 +9,8 @@
 
 namespace reeb::io {
 
-// The word as messages show it: its first 40 characters, in quotes. (std::quoted would be found beside a `quoted`.)
+// The word as messages show it: its first 40 characters, in quotes. It is not `quoted`, since std::quoted would be
+// found for strings, too.
 std::string in_quotes(std::string_view word);
 // The value of a hexadecimal digit, or -1.
 int hex_digit(char c);
