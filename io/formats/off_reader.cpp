@@ -13,6 +13,7 @@
 #include "io/text/hints.h"
 #include "io/text/text_cursor.h"
 #include "libreeb/base/count_text.h"
+#include "libreeb/base/error.h"
 
 namespace reeb::io {
 namespace {

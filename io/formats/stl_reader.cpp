@@ -7,6 +7,7 @@
 #include "io/text/hints.h"
 #include "io/text/words.h"
 #include "libreeb/base/count_text.h"
+#include "libreeb/base/error.h"
 
 namespace reeb::io {
 namespace {}  // namespace

@@ -14,6 +14,7 @@
 
 #include "io/cells/cell_division.h"
 #include "io/grids/grid_mesh.h"
+#include "libreeb/base/error.h"
 #include "ooc/run/segment.h"
 #include "tools/defects/defect_text.h"
 #include "tools/defects/find_defects.h"
