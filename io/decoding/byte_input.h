@@ -50,9 +50,9 @@ class ByteFilter : public ByteInput {
 // The content from an offset on.
 class ContentBytes final : public ByteInput {
  public:
-  // REQUIRES: no view of `source` was taken beyond `offset`, unless it can seek.
+  // REQUIRES: `offset` is at least source->least_offset().
   ContentBytes(std::unique_ptr<ContentSource> source, std::uint64_t offset)
-      : source_(std::move(source)), offset_(source_->can_seek() ? offset : 0) {
+      : source_(std::move(source)), offset_(source_->can_seek() ? offset : source_->least_offset()) {
     // A pipe is read up to there.
     while (offset_ < offset) {
       const std::size_t seen = source_->view(offset_, 1).size();

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <span>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -128,8 +129,8 @@ class StreamSource final : public ContentSource {
       : ContentSource(name), input_(std::move(input)), file_(std::move(file)), buffer_(kBufferBytes) {}
 
   std::string_view view(std::uint64_t offset, std::size_t min_bytes) override {
-    // The offset comes from the reader's own arithmetic, never from the file, and the reader has seen every byte before
-    // it.
+    // The offset comes from the reader's own arithmetic, never from the file.
+    if (offset < begin_) throw std::logic_error("a view begins before the last one");
     const std::size_t skip = std::min(static_cast<std::size_t>(offset - begin_), filled_);
     filled_ -= skip;
     begin_ += skip;
@@ -143,6 +144,7 @@ class StreamSource final : public ContentSource {
     return {buffer_.data() + start_, filled_};
   }
   bool can_seek() const override { return false; }
+  std::uint64_t least_offset() const override { return begin_; }
   std::optional<std::uint64_t> size() const override { return std::nullopt; }
   std::uint64_t file_bytes_read() const override { return input_->consumed(); }
   std::uint64_t file_bytes() const override { return file_ == nullptr ? 0 : file_->size(); }

@@ -37,6 +37,8 @@ class ContentSource {
   std::string_view view(std::uint64_t offset) { return view(offset, kLookahead); }
 
   virtual bool can_seek() const = 0;
+  // The least offset that the next view can have: 0, or that of the last view if it cannot seek.
+  virtual std::uint64_t least_offset() const { return 0; }
   // Bytes of content, if known without reading it.
   virtual std::optional<std::uint64_t> size() const = 0;
   // Bytes of the file as stored on disk: those consumed so far, and all of them (0: unknown).

@@ -67,16 +67,27 @@ TEST(Nrrd, EveryEncoding) {
   EXPECT_FALSE(std::signbit(odd[5]));
 }
 
+// Also from packed files, which cannot seek.
 TEST(Nrrd, SkipsLinesAndBytes) {
   const std::string bytes = binary<std::uint8_t>({0, 1, 2, 3, 4, 5});
-  EXPECT_EQ(read_nrrd(sized("uint8", "raw", "line skip: 2\nbyte skip: 3\n"), "one\ntwo\nxyz" + bytes), kSix);
+  const auto expect_six = [](const std::string& encoding, const std::string& skip, const std::string& data) {
+    const std::string fields = sized("uint8", encoding, skip);
+    EXPECT_EQ(read_nrrd(fields, data), kSix) << skip;
+    EXPECT_EQ(read_grid(write_file("a.nrrd.gz", gzip_packed(nrrd(fields, data)))).values, kSix) << skip;
+    if (encoding == "gzip") return;  // a packed file of packed data is unpacked once
+    write_file("a.raw.gz", gzip_packed(data));
+    EXPECT_EQ(read_grid(write_file("a.nhdr", nrrd(fields + "data file: a.raw.gz\n", ""))).values, kSix) << skip;
+  };
+  expect_six("raw", "line skip: 2\nbyte skip: 3\n", "one\ntwo\nxyz" + bytes);
+  expect_six("raw", "line skip: 1\n", std::string(300'000, 'a') + "\n" + bytes);
+  expect_six("raw", "byte skip: 300000\n", std::string(300'000, 'a') + bytes);
   EXPECT_EQ(read_nrrd(sized("uint8", "raw", "byte skip: -1\n"), "anything" + bytes), kSix);
   // In packed data, bytes are skipped after unpacking.
-  EXPECT_EQ(read_nrrd(sized("uint8", "gzip", "lineskip: 1\nbyteskip: 3\n"), "one\n" + gzip_packed("xyz" + bytes)),
-            kSix);
+  expect_six("gzip", "lineskip: 1\nbyteskip: 3\n", "one\n" + gzip_packed("xyz" + bytes));
   // In text and in hexadecimal digits, they are characters.
-  EXPECT_EQ(read_nrrd(sized("uint8", "ascii", "line skip: 1\nbyte skip: 4\n"), "one\n9 9 0 1 2 3 4 5\n"), kSix);
-  EXPECT_EQ(read_nrrd(sized("uint8", "hex", "byte skip: 3\n"), "ff\n000102030405\n"), kSix);
+  expect_six("ascii", "line skip: 1\nbyte skip: 4\n", "one\n9 9 0 1 2 3 4 5\n");
+  expect_six("ascii", "byte skip: 4\n", "9 9 0 1 2 3 4 5\n");
+  expect_six("hex", "byte skip: 3\n", "ff\n000102030405\n");
   EXPECT_EQ(error_of(write_file("a.nrrd", nrrd(sized("uint8", "ascii", "byte skip: 6\n"), "9\n9 9 0 1 2 x 4 5\n"))),
             "a.nrrd:10:11: \"x\" is not a number (a value should be here)");
   EXPECT_EQ(error_of(write_file("a.nrrd", nrrd(sized("uint8", "ascii", "byte skip: 4\n"), "9 9 0 1 x 3 4 5\n"))),
