@@ -10,7 +10,6 @@
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
-namespace {}  // namespace
 
 MshItems::MshItems(std::unique_ptr<ContentSource> source) : text_(std::move(source)) { read_format(); }
 

@@ -10,7 +10,6 @@
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
-namespace {}  // namespace
 
 StlReader::StlReader(const ContentSource& source, ReadOptions options, std::string format)
     : BatchReader(std::move(options)) {

@@ -27,7 +27,9 @@ class RangeDecoder {
   std::uint32_t uniform(std::uint32_t size, std::uint32_t = 0) {
     if (size > kMaxUniform) [[unlikely]] {
       const std::uint32_t low_half = uniform(65536);
-      return low_half | (uniform((size >> 16) + 1) << 16);
+      const std::uint32_t number = low_half | (uniform((size >> 16) + 1) << 16);
+      if (number >= size) fail_damaged();
+      return number;
     }
     normalize();
     const std::uint32_t step = range_ / size;

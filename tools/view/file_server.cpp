@@ -14,6 +14,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <list>
 #include <random>
@@ -151,7 +152,11 @@ class FileServer::Connections {
     Connection& connection = open_.emplace_back(socket);
     try {
       connection.thread = std::jthread([this, &connection] {
-        server_.answer(connection.socket, patience_);
+        try {
+          server_.answer(connection.socket, patience_);
+        } catch (const std::exception&) {
+          // There is too little memory: this client gets no answer, or part of one.
+        }
         // The client sees the end at once; the socket is closed when no thread knows it any more.
         ::shutdown(connection.socket, SHUT_RDWR);
         connection.is_done = true;
