@@ -2,12 +2,12 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "libreeb/base/ids.h"
+#include "libreeb/base/vector3.h"
 #include "libreeb/graph/settled_node.h"
 
 namespace reeb {
@@ -78,15 +78,5 @@ class SurfacePatch {
   std::vector<std::uint32_t> edge_first_, edge_triangles_, vertex_first_, vertex_edges_;
   std::vector<std::uint8_t> turned_;
 };
-
-inline Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-inline double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-inline Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-inline double distance(const Point& a, const Point& b) {
-  const Point d = a - b;
-  return std::sqrt(dot(d, d));
-}
 
 }  // namespace reeb

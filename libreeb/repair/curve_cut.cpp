@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "libreeb/base/vector3.h"
 #include "libreeb/containers/flat_map.h"
-#include "libreeb/defects/surface_patch.h"
 #include "libreeb/repair/rim_filling.h"
 #include "libreeb/repair/tight_curve.h"
 #include "libreeb/repair/triangle_crossing.h"

@@ -1,6 +1,6 @@
 #include "libreeb/repair/curve_detour.h"
 
-#include "libreeb/defects/surface_patch.h"
+#include "libreeb/base/vector3.h"
 #include "libreeb/repair/shortest_paths.h"
 
 namespace reeb {

@@ -4,8 +4,8 @@
 #include <tuple>
 #include <utility>
 
+#include "libreeb/base/vector3.h"
 #include "libreeb/containers/union_find.h"
-#include "libreeb/defects/surface_patch.h"
 #include "libreeb/repair/shortest_paths.h"
 
 namespace reeb {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <unordered_map>
 
-#include "libreeb/defects/surface_patch.h"
+#include "libreeb/base/vector3.h"
 #include "libreeb/repair/nearest_float32.h"
 
 namespace reeb {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "libreeb/defects/surface_patch.h"
+#include "libreeb/base/vector3.h"
 #include "libreeb/repair/editable_patch.h"
 
 namespace reeb {

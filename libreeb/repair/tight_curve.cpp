@@ -6,7 +6,7 @@
 #include <queue>
 #include <utility>
 
-#include "libreeb/defects/surface_patch.h"
+#include "libreeb/base/vector3.h"
 
 namespace reeb {
 namespace {

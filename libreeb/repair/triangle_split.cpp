@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "libreeb/defects/surface_patch.h"
+#include "libreeb/base/vector3.h"
 #include "libreeb/repair/nearest_float32.h"
 
 namespace reeb {

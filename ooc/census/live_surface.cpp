@@ -8,8 +8,8 @@
 
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
+#include "libreeb/base/vector3.h"
 #include "libreeb/containers/union_find.h"
-#include "libreeb/defects/surface_patch.h"
 
 namespace reeb::ooc {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "libreeb/defects/surface_patch.h"
+#include "libreeb/base/vector3.h"
 #include "libreeb/repair/triangle_cells.h"
 #include "ooc/patches/near_balls.h"
 

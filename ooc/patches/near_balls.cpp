@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libreeb/defects/surface_patch.h"
+#include "libreeb/base/vector3.h"
 #include "ooc/patches/space_cells.h"
 
 namespace reeb::ooc {

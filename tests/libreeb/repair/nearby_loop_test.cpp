@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "libreeb/defects/surface_patch.h"
+#include "libreeb/base/vector3.h"
 
 namespace reeb::test {
 namespace {

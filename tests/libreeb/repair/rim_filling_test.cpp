@@ -9,7 +9,7 @@
 #include <limits>
 #include <map>
 
-#include "libreeb/defects/surface_patch.h"
+#include "libreeb/base/vector3.h"
 #include "tests/support/random.h"
 
 namespace reeb::test {

@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "libreeb/defects/surface_patch.h"
+#include "libreeb/base/vector3.h"
 #include "libreeb/repair/curve_cut.h"
 
 namespace reeb::test {

@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "libreeb/defects/surface_patch.h"
+#include "libreeb/base/vector3.h"
 #include "ooc/patches/ball_clusters.h"
 #include "ooc/patches/space_order.h"
 
