@@ -5,6 +5,7 @@
 #include "io/drawing/canvas.h"
 #include "io/plot/node_marks.h"
 #include "io/plot/value_axis.h"
+#include "io/text/number_text.h"
 #include "libreeb/base/count_text.h"
 
 namespace reeb::io {
@@ -115,10 +116,11 @@ std::string graph_picture(const ReebGraph& graph, const GraphLayout& layout, con
   Heading complete = heading;
   if (layout.left_out > 0)
     complete.subtitle += "; " + with_commas(layout.left_out) + " of the components of one node or arc are not drawn";
+  const bool as_lines = graph.arc_count() <= kMostArcsAsLines && graph.node_count() <= 2 * kMostArcsAsLines;
+  if (!as_lines) complete.subtitle += "; minima and maxima are dots, forks are not marked";
   std::string svg = begin_svg(kWidth, kHeight, complete);
   std::string axis;
   append_axis(axis, graph, function);
-  const bool as_lines = graph.arc_count() <= kMostArcsAsLines && graph.node_count() <= 2 * kMostArcsAsLines;
   if (!as_lines) append_raster(svg, graph, layout, kinds);  // it covers the grid
   svg += axis;
   if (as_lines) append_lines(svg, graph, layout, kinds);

@@ -10,6 +10,7 @@
 #include "io/plot/node_marks.h"
 #include "io/plot/specks.h"
 #include "io/plot/value_axis.h"
+#include "io/text/number_text.h"
 
 namespace reeb::io {
 namespace {
@@ -225,7 +226,7 @@ Raster lines_as_image(const SkeletonLines& lines, const SkeletonScene& scene) {
   return canvas.image();
 }
 
-// What is below the skeleton, from `top` on. `kinds`: of the nodes that have marks.
+// What is below the skeleton, from `top` on. `kinds`: of the nodes that have marks; none if there are too many.
 void append_legends(std::string& svg, double top, const GraphView& view, const SkeletonLines& lines,
                     const SkeletonScene& scene, std::span<const NodeKind> kinds) {
   const bool has_colors =
@@ -237,7 +238,8 @@ void append_legends(std::string& svg, double top, const GraphView& view, const S
   if (!lines.arcs.empty())
     append_text(svg, {20, top + 56},
                 std::string("Lines join ") + (view.on_surface ? "points" : "the centres") +
-                    " of contours; a bend without a mark is not a node.",
+                    (kinds.empty() ? " of contours. There are too many nodes to mark them."
+                                   : " of contours; a bend without a mark is not a node."),
                 {.size = 11, .color = kGreyInk});
 }
 

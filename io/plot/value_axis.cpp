@@ -1,6 +1,5 @@
 #include "io/plot/value_axis.h"
 
-#include <charconv>
 #include <cmath>
 
 namespace reeb::io {
@@ -17,11 +16,6 @@ std::vector<double> round_values(double low, double high, std::size_t count) {
   // Where the step is less than the distance of numbers near `low`, there would be no end.
   for (double i = first; i <= last && values.size() < 4 * count; i += 1) values.push_back(i == 0 ? 0 : i * step);
   return values;
-}
-
-std::string short_number(double value, int digits) {
-  char text[64];
-  return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr};
 }
 
 }  // namespace reeb::io

@@ -5,16 +5,11 @@
 #include <numbers>
 #include <vector>
 
-#include "io/plot/value_axis.h"
+#include "io/text/number_text.h"
+#include "libreeb/base/vector3.h"
 
 namespace reeb::io {
 namespace {
-
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 // Of any size: the largest component is divided out first.
 Point unit(const Point& a) {

@@ -2,17 +2,9 @@
 
 #include "io/events/stream_fault.h"
 #include "io/streaming/text_lines.h"
+#include "io/text/words.h"
 
 namespace reeb::io {
-namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-}  // namespace
 
 void TextHead::fail_here(const std::string& what, std::size_t column) const {
   fail(Fault::kBadHeader, what, std::to_string(number_) + ":" + std::to_string(column));

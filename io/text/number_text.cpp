@@ -11,6 +11,12 @@ void append_rounded(std::string& out, double value, int digits) {
   out.append(text.data(), result.ptr);
 }
 
+std::string short_number(double value, int digits) {
+  std::string text;
+  append_rounded(text, value, digits);
+  return text;
+}
+
 void append_shortest(std::string& out, double value) {
   std::array<char, 40> text;
   const auto result = std::to_chars(text.data(), text.data() + text.size(), value + 0.0);

@@ -14,6 +14,8 @@ void append_double(std::string& out, double value);
 void append_shortest(std::string& out, double value);
 // This many significant digits at most, -0 as 0.
 void append_rounded(std::string& out, double value, int digits);
+// The same for people, who need few: "0.25", "1.5e+20".
+std::string short_number(double value, int digits = 6);
 
 // A blank and a number, as in the lines of streaming meshes; -0 stays. A float as `%.9g`, which restores it; a double
 // in the shortest form that restores it.

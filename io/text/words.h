@@ -21,6 +21,9 @@ struct PercentDecoded {
 };
 PercentDecoded percent_decoded(std::string_view text);
 
+// The text without blanks and tabs at its ends.
+std::string_view trimmed(std::string_view text);
+
 // Of the letters A to Z alone; other characters stay.
 std::string lower_case(std::string_view text);
 std::string upper_case(std::string_view text);

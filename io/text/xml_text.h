@@ -1,4 +1,4 @@
-// Text for XML files.
+// Text for XML and HTML files.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace reeb::io {
 
-// `text` as XML text or as the value of an attribute. XML has no way to write most control characters, so the text is
+// `text` as text or as the value of an attribute. XML has no way to write most control characters, so the text is
 // made safe to show first (libreeb/base/printable.h).
 inline std::string xml_escaped(std::string_view text) {
   std::string escaped;
@@ -21,6 +21,8 @@ inline std::string xml_escaped(std::string_view text) {
       escaped += "&gt;";
     else if (c == '"')
       escaped += "&quot;";
+    else if (c == '\'')
+      escaped += "&#39;";
     else
       escaped += c;
   }

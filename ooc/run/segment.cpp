@@ -111,7 +111,7 @@ class FollowedSegmentation : public Segmentation {
     }
   }
 
-  MeasuredArcs measure(MeshReader& mesh) override {
+  MeasuredArcs measure(MeshReader& mesh, const std::function<void(const MeshBatch&)>& observe) override {
     constexpr std::uint64_t kMostTableBytes = 256 << 20, kMostSortBytes = 16 << 20;
     const std::uint64_t free = run_.budget.free_bytes();
     SurfaceMeasures measures(level_, run_.temp, run_.budget,
@@ -125,6 +125,7 @@ class FollowedSegmentation : public Segmentation {
     rewind();
     for (MeshBatch batch; mesh.read(batch);) {
       run_.resumable.check_interruption();
+      observe(batch);
       if (batch.vertex_count != 0) {
         const std::uint64_t first = batch.first_vertex.value(), bound = vertex_bound();
         if (first < vertex_ || first > bound || batch.vertex_count > bound - first) throw input_changed();

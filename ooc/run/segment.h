@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -50,10 +51,10 @@ class Segmentation {
   // REQUIRES: not beyond vertex_bound().
   virtual void read(std::span<ArcLabel> labels, std::span<double> values) = 0;
 
-  // Measures the parts of the surface on the arcs. `mesh` delivers the mesh again, from its beginning. If it has cells,
-  // areas and lengths are NaN. REQUIRES: read() is not called afterwards.
+  // Measures the parts of the surface on the arcs. `mesh` delivers the mesh again, from its beginning; each batch is
+  // shown to `observe`. If the mesh has cells, areas and lengths are NaN. REQUIRES: read() is not called afterwards.
   // THROWS: Error of the mesh, the budget or the disk; Error{kChanged} if the mesh has other vertices.
-  virtual MeasuredArcs measure(MeshReader& mesh) = 0;
+  virtual MeasuredArcs measure(MeshReader& mesh, const std::function<void(const MeshBatch&)>& observe) = 0;
 };
 
 // Computes the graph of the mesh again, and follows every vertex to its arc. The function is that of the file. It and

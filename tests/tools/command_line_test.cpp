@@ -443,6 +443,19 @@ TEST_F(CommandLine, TheSummarySaysThatTrianglesShareNoVertices) {
     expect_success(outcome);
     EXPECT_EQ(lines_after(text, outcome.error).size(), 0u) << outcome.error;
   }
+  // Who asks for tunnels would be told that there are none.
+  const std::string note = "note: most triangles share no vertex with others";
+  EXPECT_EQ(lines_after(note, reeb({"defects", "apart.off"}).error).size(), 1u);
+  EXPECT_EQ(lines_after(note, reeb({"repair", "apart.off", "-o", "r.off"}).error).size(), 1u);
+  EXPECT_EQ(lines_after(note, reeb({"defects", "joined.off"}).error).size(), 0u);
+}
+
+TEST_F(CommandLine, ThePeakIsNotThatOfWhoeverStartedTheProgram) {
+  constexpr std::size_t kBytes = std::size_t{256} << 20;
+  const std::string large(kBytes, 'x');  // of this process
+  expect_success(reeb({"generate", "torus", "--triangles", "1k", "-o", "torus.ply"}));
+  expect_success(reeb({"torus.ply", "--report", "torus.json"}));
+  EXPECT_LT(nlohmann::json::parse(file("torus.json"))["peak_rss_bytes"].get<std::size_t>(), kBytes) << large.size();
 }
 
 // All values are equal, so all pairs have persistence zero.

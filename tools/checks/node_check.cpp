@@ -1,12 +1,10 @@
 #include "tools/checks/node_check.h"
 
-#include <fmt/core.h>
-
-#include <algorithm>
 #include <filesystem>
 #include <limits>
-#include <numeric>
 #include <span>
+
+#include "libreeb/base/error.h"
 
 namespace reeb::tools {
 
@@ -14,11 +12,8 @@ NodeCheck::NodeCheck(const std::string& file, const std::string& mesh, const std
                      const ReebGraph& graph)
     : graph_(graph),
       mesh_(mesh),
-      by_vertex_(graph.node_count()),
+      places_(mesh, graph),
       range_{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()} {
-  std::iota(by_vertex_.begin(), by_vertex_.end(), std::size_t{0});
-  std::sort(by_vertex_.begin(), by_vertex_.end(),
-            [&](std::size_t a, std::size_t b) { return graph.nodes[a].vertex < graph.nodes[b].vertex; });
   try {
     spec_ = io::parse_function(function);
   } catch (const Error& error) {
@@ -58,37 +53,20 @@ void NodeCheck::add(const MeshBatch& batch) {
       range_.add(value);
     }
   }
-  const std::uint64_t first = batch.first_vertex.value(), end = first + batch.vertex_count;
-  read_ = end;
-  for (; next_ < by_vertex_.size() && graph_.nodes[by_vertex_[next_]].vertex.value() < end; ++next_) {
-    const std::size_t node = by_vertex_[next_];
-    const auto i = static_cast<std::size_t>(graph_.nodes[node].vertex.value() - first);
-    if (source_ && graph_.nodes[node].value != values_[i]) fail(node, "has another value in the mesh");
-    for (std::size_t k = 0; k < 3 && !graph_.positions.empty(); ++k)
-      if (graph_.positions[node][k] != (k < batch.coordinates.size() ? batch.coordinates[k][i] : 0.0))
-        fail(node, "has another position in the mesh");
-  }
+  read_ = batch.first_vertex.value() + batch.vertex_count;
+  places_.add(batch, [&](std::size_t node, std::size_t i) {
+    if (source_ && graph_.nodes[node].value != values_[i]) places_.fail(node, "has another value in the mesh");
+  });
 }
 
 std::optional<ValueRange> NodeCheck::finish() {
-  if (next_ != by_vertex_.size()) fail(by_vertex_[next_], "is not in the mesh");
-  if (failure_) throw *failure_;
+  places_.finish();
   if (source_) {
     source_->check_count(read_);
     source_->check_unchanged();
   }
   if (!source_ || range_.min > range_.max) return std::nullopt;
   return range_;
-}
-
-void NodeCheck::fail(std::size_t node, const char* why) {
-  if (!failure_) failure_ = wrong_mesh(mesh_, graph_.nodes[node].vertex, why);
-}
-
-Error wrong_mesh(const std::string& mesh, VertexId vertex, const char* why) {
-  return Error(ErrorKind::kBadInput, fmt::format("the node of vertex {} {}", vertex.value(), why),
-               "name the mesh that the file was computed from")
-      .at(mesh);
 }
 
 }  // namespace reeb::tools

@@ -8,16 +8,12 @@
 
 #include "io/functions/function_source.h"
 #include "io/functions/mesh_field.h"
-#include "libreeb/base/error.h"
-#include "libreeb/base/ids.h"
 #include "libreeb/base/value_range.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/port/mesh_reader.h"
+#include "tools/checks/node_places.h"
 
 namespace reeb::tools {
-
-// That the vertex of a node is another one in this mesh: `why` is "has another value in the mesh" or the like.
-Error wrong_mesh(const std::string& mesh, VertexId vertex, const char* why);
 
 // Compares each node with its vertex while the mesh is read: the position (if the graph has positions) and the value of
 // the function. Values are not compared if the file that they came from is gone, or if they depend on a vertex of a
@@ -45,12 +41,9 @@ class NodeCheck {
   std::optional<ValueRange> finish();
 
  private:
-  void fail(std::size_t node, const char* why);
-
   const ReebGraph& graph_;
   const std::string& mesh_;
-  std::vector<std::size_t> by_vertex_;
-  std::size_t next_ = 0;
+  NodePlaces places_;
   std::uint64_t read_ = 0;  // vertices
   io::FunctionSpec spec_;
   std::vector<std::string> properties_;
@@ -58,7 +51,6 @@ class NodeCheck {
   std::vector<double> values_;
   ValueRange range_;
   std::string unchecked_;
-  std::optional<Error> failure_;
 };
 
 }  // namespace reeb::tools

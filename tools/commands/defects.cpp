@@ -78,6 +78,7 @@ void run_defects(DefectsOptions options) {
   options.find.mesh.check_interruption();
   options.find.mesh.interrupted = {};  // from now on, a signal leaves nothing behind
   bar.clear();
+  if (!options.quiet && !defects.note.empty()) print_line("note: " + defects.note);
   std::vector<RankedRow> rows;
   for (std::size_t i = 0; i < defects.table.rows.size() && rows.size() < options.limit; ++i)
     if (const DefectRow& row = defects.table.rows[i]; limits.has_persistence(row) && limits.has_length(row))

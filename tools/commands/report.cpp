@@ -54,6 +54,7 @@ void run_report(PageOptions options) {
   std::vector<std::string> notes;
   options.report.note = [&](const std::string& note) { notes.push_back(note); };
   options.report.counting = [&] { bar.update({"counting", 1}, 0, 0); };
+  warn_of_damage(ooc::ReebFile(options.report.file));
   const std::string page = make_report(options.report);
   bar.clear();
   write_output(options.output, options.force, [&](std::ostream& out) { out << page; });

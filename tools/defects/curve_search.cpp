@@ -15,7 +15,7 @@
 #include "ooc/patches/space_cells.h"
 #include "ooc/patches/space_order.h"
 #include "ooc/threads/parallel.h"
-#include "tools/checks/node_check.h"
+#include "tools/checks/node_places.h"
 #include "tools/defects/component_tops.h"
 
 namespace reeb::tools {

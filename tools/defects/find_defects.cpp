@@ -8,6 +8,7 @@
 #include "libreeb/base/memory_budget.h"
 #include "ooc/run/freed_memory.h"
 #include "tools/library/temp_folder.h"
+#include "tools/program/simplex_text.h"
 
 namespace reeb::tools {
 namespace {
@@ -98,6 +99,8 @@ Defects find_defects(const FindDefectsOptions& options) {
   if (!options.files.empty() || !options.functions.empty()) look_at_mesh(options, list.functions[0], search, list.box);
   Defects defects;
   for (const LoopFunction& function : list.functions) defects.functions.push_back(function.name);
+  const LoopFunction& first = list.functions[0];
+  defects.note = text_if_apart(first.mesh.triangles, first.components, first.arcs);
   const ValuedMesh mesh(options.mesh, defects.functions);
   const LoopCurvesFound found = find_curves(mesh, list, scale_of(list), search);
   defects.scale = found.scale;

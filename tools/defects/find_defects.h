@@ -25,6 +25,7 @@ struct Defects {
   std::vector<std::string> functions;  // of the rows
   DefectTable table;
   PatchScale scale;
+  std::string note;  // what is odd about the mesh, if anything is
 };
 
 // THROWS: as compute(); Error{kBadInput} for a graph of another mesh, and for a mesh with cells.

@@ -41,6 +41,7 @@ LoopList read_loops(std::span<const std::string> files, MemoryBudget& budget) {
                           {header.function_min, header.function_max},
                           {header.mesh_vertices, header.mesh_triangles},
                           header.components,
+                          header.arcs,
                           {}};
     if (!list.functions.empty() && list.functions[0].mesh != function.mesh)
       throw Error(ErrorKind::kBadInput, "it is of another mesh than " + files[0], "name files of the same mesh")

@@ -34,7 +34,8 @@ struct LoopFunction {
   std::string file, name;
   ValueRange range;
   MeshCounts mesh;
-  std::uint64_t components = 0;   // also those without loops
+  std::uint64_t components = 0;  // also those without loops
+  std::uint64_t arcs = 0;
   std::vector<SettledNode> tops;  // the highest node of each component that has loops
 };
 

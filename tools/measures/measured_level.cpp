@@ -11,6 +11,7 @@
 
 #include "libreeb/base/error.h"
 #include "ooc/run/segment.h"
+#include "tools/checks/node_places.h"
 #include "tools/library/run_input.h"
 #include "tools/measures/open_segmentation.h"
 #include "tools/program/progress.h"
@@ -97,8 +98,10 @@ ooc::MeasuredArcs measure_level(const ooc::ReebFile& file, ooc::Level& level, co
   ReadOptions reading;
   reading.temp_folder = request.temp_folder;
   const auto reader = input.read_again(reading);
-  ooc::MeasuredArcs measured = segmentation->measure(*reader);
+  NodePlaces places(request.mesh, level.graph);
+  ooc::MeasuredArcs measured = segmentation->measure(*reader, [&](const MeshBatch& batch) { places.add(batch); });
   input.input().check_unchanged();
+  places.finish();
   if (!level.buckets.offsets.empty()) level.buckets = in_order(level.buckets, arcs_as_measured(level, measured));
   if (!request.quiet && measured.doubtful_area + measured.dropped_area > 0)
     print_line(

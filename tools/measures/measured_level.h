@@ -19,7 +19,8 @@ struct MeasureRequest {
 
 // The measures are in the order of the level's arcs. Parallel arcs of the level are put into the order in which
 // `reeb segment` numbers them (docs/SEMANTICS.md, Segmentation).
-// THROWS: as ooc::segment_mesh() and Segmentation::measure(); Error{kBadInput} if the mesh cannot be read twice.
+// THROWS: as ooc::segment_mesh() and Segmentation::measure(); Error{kBadInput} if the mesh cannot be read twice, or
+//         if a node of the level is elsewhere in it.
 ooc::MeasuredArcs measure_level(const ooc::ReebFile& file, ooc::Level& level, const MeasureRequest& request);
 
 }  // namespace reeb::tools

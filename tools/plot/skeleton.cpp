@@ -10,9 +10,9 @@
 #include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
-#include "libreeb/format/mesh_match.h"
 #include "libreeb/port/mesh_reader.h"
 #include "ooc/tables/paged_table.h"
+#include "tools/checks/node_places.h"
 #include "tools/defects/valued_mesh.h"
 #include "tools/plot/charts.h"
 
@@ -63,7 +63,6 @@ class VertexSample {
       step_ *= 2;
     }
   }
-  std::uint64_t vertices() const { return count_; }
   std::vector<Point> points() const {
     std::vector<Point> all = points_;
     if (count_ != 0)
@@ -143,18 +142,17 @@ class SurfaceDrawing {
 };
 
 // Some vertices of the mesh, which is read a first time, and all that bound it in these views. THROWS: Error if the
-// file is not of this mesh.
-std::vector<Point> measure_mesh(const ValuedMesh& mesh, const ooc::ReebFile& file, std::span<const io::View> views,
-                                const SkeletonOptions& options) {
-  const FileHeader& header = file.header();
+// file and its graph are not of this mesh.
+std::vector<Point> measure_mesh(const ValuedMesh& mesh, const ooc::ReebFile& file, const ReebGraph& graph,
+                                std::span<const io::View> views, const SkeletonOptions& options) {
   VertexSample sample(views);
-  std::uint64_t triangles = 0;
+  NodePlaces places(mesh.path(), graph);
   mesh.read([&](const MeshBatch& batch, auto, std::uint64_t done, std::uint64_t total) {
     sample.add(batch);
-    triangles += batch.triangle_count();
+    places.add(batch);
     if (options.progress) options.progress("measuring", done, total);
   });
-  require_same_mesh(file.path(), {header.mesh_vertices, header.mesh_triangles}, {sample.vertices(), triangles});
+  places.finish(file.path(), file.header());
   return sample.points();
 }
 
@@ -229,7 +227,7 @@ std::string draw_skeleton(const ooc::ReebFile& file, const SkeletonOptions& opti
     std::vector<std::string> functions;
     if (options.surface == io::SurfaceStyle::kValue) functions.push_back(header.function);
     mesh.emplace(source, functions);
-    all = measure_mesh(*mesh, file, views, options);
+    all = measure_mesh(*mesh, file, level.graph, views, options);
   }
   if (is_empty) return message_picture(heading, "The graph is empty.");
 

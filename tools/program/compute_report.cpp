@@ -18,20 +18,6 @@
 namespace reeb::tools {
 namespace {
 
-const char* feature_name(PairType type) {
-  switch (type) {
-    case PairType::kExt1:
-      return "loop";
-    case PairType::kOrd0:
-      return "minimum";
-    case PairType::kRel1:
-      return "maximum";
-    case PairType::kExt0:
-      break;
-  }
-  return "component";
-}
-
 void print_features(const ooc::ComputeResult& r, const char* title, std::uint64_t all, bool loops) {
   const auto is_wanted = [&](const ooc::Feature& f) { return (f.type == PairType::kExt1) == loops; };
   const auto listed = static_cast<std::size_t>(std::ranges::count_if(r.largest, is_wanted));
@@ -71,14 +57,10 @@ void print_not_checked(const RunFacts& facts, const ooc::ComputeResult& r) {
   print_with_command(facts, "  surface not checked", "reeb info", "gives boundaries and genus");
 }
 
-// Many programs write each triangle with vertices of its own. Isolated vertices have no arcs.
 void print_if_apart(const ooc::ComputeResult& r) {
-  constexpr std::uint64_t kFew = 100;
-  if (r.triangles() < kFew || has_cells(r) || 2 * std::min<std::uint64_t>(r.betti.components, r.arcs) <= r.triangles())
-    return;
-  print_line(
-      "  most triangles share no vertex with others: vertices in the same place are not joined (except in STL); if they"
-      " should be, join them with another program first");
+  if (has_cells(r)) return;
+  if (const std::string text = text_if_apart(r.triangles(), r.betti.components, r.arcs); !text.empty())
+    print_line("  " + text);
 }
 
 // Only what `reeb defects` can measure.
@@ -158,6 +140,20 @@ nlohmann::ordered_json to_json(const RunFacts& facts, const ooc::ComputeResult& 
 }
 
 }  // namespace
+
+const char* feature_name(PairType type) {
+  switch (type) {
+    case PairType::kExt0:
+      return "component";
+    case PairType::kExt1:
+      return "loop";
+    case PairType::kOrd0:
+      return "minimum";
+    case PairType::kRel1:
+      return "maximum";
+  }
+  return "";
+}
 
 void print_summary(const RunFacts& facts, const std::vector<ooc::ComputeResult>& results) {
   const ooc::ComputeResult& first = results.front();

@@ -17,6 +17,9 @@ struct RunFacts {
   std::uint64_t memory_budget_bytes = 0;  // 0: no limit was given
 };
 
+// A pair of this type, in words that need no textbook: "loop".
+const char* feature_name(PairType type);
+
 void print_summary(const RunFacts& facts, const std::vector<ooc::ComputeResult>& results);
 
 // The JSON text of schema reeb.report.v1: an object, or an array if there are several functions.

@@ -1,5 +1,6 @@
 #include "tools/program/simplex_text.h"
 
+#include <algorithm>
 #include <array>
 
 #include "libreeb/base/count_text.h"
@@ -25,6 +26,13 @@ std::string count_simplices(const SimplexCounts& counts) {
         (text.empty() ? "" : ", ") + with_commas(counts[k]) + " " + (counts[k] == 1 ? one : simplices_of_dimension(k));
   }
   return text.empty() ? "0 triangles" : text;
+}
+
+std::string text_if_apart(std::uint64_t triangles, std::uint64_t components, std::uint64_t arcs) {
+  constexpr std::uint64_t kFew = 100;
+  if (triangles < kFew || 2 * std::min(components, arcs) <= triangles) return {};
+  return "most triangles share no vertex with others: vertices in the same place are not joined (except in STL); if "
+         "they should be, join them with another program first";
 }
 
 }  // namespace reeb::tools

@@ -1,39 +1,12 @@
 #include "tools/report/page_text.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "io/text/base64_encoder.h"
-#include "libreeb/base/printable.h"
 
 namespace reeb::tools {
-
-std::string html_text(std::string_view text) {
-  std::string out;
-  for (const char c : printable(text)) switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += c;
-    }
-  return out;
-}
 
 std::string script_json(const nlohmann::ordered_json& json) {
   const std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -63,7 +36,5 @@ std::string base64(std::span<const std::uint16_t> numbers) {
   encoder.finish();
   return out;
 }
-
-std::string short_number(double value) { return fmt::format("{:.6g}", value); }
 
 }  // namespace reeb::tools

@@ -1,19 +1,14 @@
-// Values as parts of a page. Names come from other people, so nothing of them may act as markup.
+// Values as parts of a page. io/text/xml_text.h has its texts.
 #pragma once
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
-#include <string_view>
 
 namespace reeb::tools {
 
-// For text and for attributes in double quotes. Control characters and bytes that are not UTF-8 as printable() has
-// them.
-std::string html_text(std::string_view text);
-
-// For the inside of a <script>, whatever the strings in it are.
+// For the inside of a <script>. Strings in it come from other people, and none of them may act as markup.
 std::string script_json(const nlohmann::ordered_json& json);
 
 // The place of the value between `min` and `min + 2 * half_size`, rounded; 0 where the size is. Sizes can be beyond the
@@ -22,8 +17,5 @@ std::uint16_t in_65535ths(double value, double min, double half_size);
 
 // Numbers as base64, low bytes first.
 std::string base64(std::span<const std::uint16_t> numbers);
-
-// Six digits are enough for people.
-std::string short_number(double value);
 
 }  // namespace reeb::tools

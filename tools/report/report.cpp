@@ -11,10 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "io/text/number_text.h"
+#include "io/text/xml_text.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "ooc/reeb_file/largest_pairs.h"
 #include "ooc/reeb_file/reeb_file.h"
+#include "tools/checks/node_places.h"
 #include "tools/defects/surface_census.h"
 #include "tools/program/whole_levels.h"
 #include "tools/report/closeups.h"
@@ -110,10 +113,10 @@ void note_file(const ooc::ReebFile& file, Findings& findings) {
   else if (header.nodes > 0 && !header.flags.has_embedding)
     notes.push_back("The file has no embedding (--buckets 0): arcs are straight lines.");
   if (header.denoised_pairs > 0)
-    notes.push_back(
-        fmt::format("Noise was removed when the graph was computed: {}{}.", count_of(header.denoised_pairs, "pair"),
-                    header.denoise_threshold > 0 ? " of less persistence than " + short_number(header.denoise_threshold)
-                                                 : std::string()));
+    notes.push_back(fmt::format(
+        "Noise was removed when the graph was computed: {}{}.", count_of(header.denoised_pairs, "pair"),
+        header.denoise_threshold > 0 ? " of less persistence than " + io::short_number(header.denoise_threshold)
+                                     : std::string()));
   if (header.kept_loops > 0)
     notes.push_back(fmt::format("{} cannot be cancelled exactly, so all levels have {}.",
                                 count_of(header.kept_loops, "loop"), header.kept_loops == 1 ? "it" : "them"));
@@ -142,12 +145,25 @@ void note_census(const ooc::MeshCensus& census, Findings& findings) {
     notes.emplace_back("The triangles are not oriented consistently, but they can be.");
 }
 
-void search_mesh(const ReportOptions& options, Findings& findings) {
+// THROWS: Error{kBadInput} unless the counts in the file are those of the mesh, and the nodes of the level, if there is
+// one, are in it.
+void require_mesh_of(const ooc::ReebFile& file, std::optional<std::uint32_t> version, const MeshSource& source) {
+  const ReebGraph graph = version ? file.load(*version).graph : ReebGraph();
+  NodePlaces places(source.path, graph);
+  const ValuedMesh mesh(source, {});
+  mesh.read([&](const MeshBatch& batch, auto, std::uint64_t, std::uint64_t) { places.add(batch); });
+  places.finish(file.path(), file.header());
+}
+
+void search_mesh(const ooc::ReebFile& file, const ReportOptions& options, Findings& findings) {
   if (options.counting) options.counting();
+  require_mesh_of(file, findings.finest, options.defects.mesh);
   findings.census = census_of(options.defects.mesh);
   note_census(*findings.census, findings);
   if (!findings.census->not_a_surface.empty()) return;  // curves are on surfaces
   findings.defects = find_defects(options.defects);
+  if (const std::string& note = findings.defects->note; !note.empty())
+    findings.notes.push_back("In the mesh, " + note + ".");
   const ValuedMesh mesh(options.defects.mesh, findings.defects->functions);
   findings.closeups = closeups_json(mesh, *findings.defects);
 }
@@ -174,7 +190,7 @@ Findings find(const ooc::ReebFile& file, const ReportOptions& options) {
     if (findings.finest) findings.skeleton = skeleton_json(file, *findings.finest);
   });
   if (!options.defects.mesh.path.empty())
-    search_mesh(options, findings);
+    search_mesh(file, options, findings);
   else
     findings.notes.emplace_back("The mesh was not checked (give it with --mesh).");
   return findings;
@@ -227,7 +243,7 @@ std::vector<NamedText> census_rows(const std::string& mesh, const ooc::MeshCensu
 std::string notes_list(const std::vector<std::string>& notes) {
   if (notes.empty()) return "<p class=\"fine\">Nothing unusual was found.</p>\n";
   std::string out = "<ul class=\"notes\">\n";
-  for (const std::string& note : notes) out += "<li>" + html_text(note) + "</li>\n";
+  for (const std::string& note : notes) out += "<li>" + io::xml_escaped(note) + "</li>\n";
   return out + "</ul>\n";
 }
 
@@ -258,10 +274,11 @@ std::string defects_section(const Findings& findings) {
   const std::size_t listed = std::min(table.rows.size(), kMostRows);
   if (listed < table.rows.size())
     out += fmt::format("; the first {} are listed, <code>reeb defects</code> lists all", with_commas(listed));
-  out += suggestion.length ? fmt::format(". Curves of at most {:.4g} are likely defects (confidence {:.0f} %): {}.",
-                                         *suggestion.length, 100 * suggestion.confidence, html_text(suggestion.why))
-                           : fmt::format(". No length divides defects from features (confidence {:.0f} %): {}.",
-                                         100 * suggestion.confidence, html_text(suggestion.why));
+  out += suggestion.length
+             ? fmt::format(". Curves of at most {:.4g} are likely defects (confidence {:.0f} %): {}.",
+                           *suggestion.length, 100 * suggestion.confidence, io::xml_escaped(suggestion.why))
+             : fmt::format(". No length divides defects from features (confidence {:.0f} %): {}.",
+                           100 * suggestion.confidence, io::xml_escaped(suggestion.why));
   return out + "</p>\n<div id=\"closeups\" class=\"closeups\"></div>\n" +
          "<div class=\"scroll\" role=\"region\" aria-label=\"Defects\" tabindex=\"0\">\n" +
          defects_table(*findings.defects, kMostRows, findings.closeups.size()) + "</div>\n";
@@ -334,11 +351,12 @@ std::string make_report(const ReportOptions& options) {
     summary += summary_table("Census of the mesh", census_rows(options.defects.mesh.path, *findings.census));
   const std::string name = base_name(options.file);
   std::vector<NamedText> parts{
-      {"title", html_text("Reeb graph report: " + name)},
-      {"file", html_text(name)},
-      {"subtitle", html_text(fmt::format("Reeb graph of {} on a mesh of {}", header.function,
-                                         header.mesh_triangles == 0 ? count_of(header.mesh_vertices, "vertex")
-                                                                    : count_of(header.mesh_triangles, "triangle")))},
+      {"title", io::xml_escaped("Reeb graph report: " + name)},
+      {"file", io::xml_escaped(name)},
+      {"subtitle",
+       io::xml_escaped(fmt::format("Reeb graph of {} on a mesh of {}", header.function,
+                                   header.mesh_triangles == 0 ? count_of(header.mesh_vertices, "vertex")
+                                                              : count_of(header.mesh_triangles, "triangle")))},
       {"summary", std::move(summary)},
       {"notes", notes_list(findings.notes)},
       {"features", features_section(findings, range)},

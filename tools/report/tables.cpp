@@ -6,7 +6,10 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "io/text/number_text.h"
+#include "io/text/xml_text.h"
 #include "libreeb/base/count_text.h"
+#include "tools/program/compute_report.h"
 #include "tools/program/quantity.h"
 #include "tools/program/whole_levels.h"
 #include "tools/report/page_text.h"
@@ -32,7 +35,7 @@ constexpr const char* kEnd = "</tbody>\n</table>\n";
 
 std::string number(const std::string& text) { return "<td class=\"number\">" + text + "</td>"; }
 std::string number(double value) {
-  return std::isfinite(value) ? number(short_number(value))
+  return std::isfinite(value) ? number(io::short_number(value))
                               : "<td class=\"number\" data-value=\"Infinity\"><span class=\"quiet\">none</span></td>";
 }
 // A count, which sorts as the number that it is.
@@ -50,21 +53,6 @@ std::string percent(const ValueRange& range, double lo, double hi) {
   return percent(range.max > range.min ? percent_of(range, lo, hi) : 0.0);
 }
 
-// The types of pairs, in words that need no textbook.
-const char* meaning(PairType type) {
-  switch (type) {
-    case PairType::kExt0:
-      return "component";
-    case PairType::kExt1:
-      return "loop";
-    case PairType::kOrd0:
-      return "minimum";
-    case PairType::kRel1:
-      return "maximum";
-  }
-  return "";
-}
-
 std::string button(const char* what, std::size_t index, const std::string& label) {
   return fmt::format("<td class=\"fixed\"><button type=\"button\" data-{}=\"{}\" aria-label=\"{}\">Show</button></td>",
                      what, index, label);
@@ -73,9 +61,9 @@ std::string button(const char* what, std::size_t index, const std::string& label
 }  // namespace
 
 std::string summary_table(const std::string& caption, std::span<const NamedText> rows) {
-  std::string out = "<table class=\"summary\">\n<caption>" + html_text(caption) + "</caption>\n<tbody>\n";
+  std::string out = "<table class=\"summary\">\n<caption>" + io::xml_escaped(caption) + "</caption>\n<tbody>\n";
   for (const auto& [name, value] : rows)
-    out += "<tr><th scope=\"row\">" + html_text(name) + "</th><td>" + html_text(value) + "</td></tr>\n";
+    out += "<tr><th scope=\"row\">" + io::xml_escaped(name) + "</th><td>" + io::xml_escaped(value) + "</td></tr>\n";
   return out + kEnd;
 }
 
@@ -97,7 +85,7 @@ std::string pairs_table(std::span<const ooc::PairRow> rows, const ValueRange& ra
     out += "<tr>";
     if (with_buttons) out += button("pair", rank - 1, fmt::format("Show feature {} in the skeleton", rank));
     out += number(std::to_string(rank)) +
-           text(fmt::format("{} ({}){}", meaning(row.type), name_of(row.type), row.kept ? ", kept" : "")) +
+           text(fmt::format("{} ({}){}", feature_name(row.type), name_of(row.type), row.kept ? ", kept" : "")) +
            number(persistence) + percent(range, row.lo.key.value, row.hi.key.value) + number(row.lo.key.value) +
            number(row.hi.key.value) + number(std::to_string(row.lo.key.vertex.value())) +
            number(std::to_string(row.hi.key.vertex.value())) + place(row.hi.position) + "</tr>\n";

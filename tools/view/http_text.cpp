@@ -11,13 +11,6 @@ namespace reeb::tools {
 namespace {
 
 constexpr std::string_view kLineEnd = "\r\n";
-constexpr std::string_view kSpaces = " \t";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kSpaces);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
-}
 
 bool is_name(std::string_view text, std::string_view lower_case) {
   return std::ranges::equal(text, lower_case,
@@ -54,7 +47,7 @@ std::optional<HttpRequest> parse_request(std::string_view text) {
     rest.remove_prefix(header.size());
     const std::size_t colon = header.find(':');
     if (colon == std::string_view::npos) continue;
-    const std::string_view name = header.substr(0, colon), value = trimmed(header.substr(colon + 1));
+    const std::string_view name = header.substr(0, colon), value = io::trimmed(header.substr(colon + 1));
     if (is_name(name, "range")) request.range = value;
     if (is_name(name, "host")) {
       request.host = value;
@@ -71,7 +64,7 @@ AskedRange asked_range(std::string_view header, std::uint64_t size) {
   header.remove_prefix(kUnit.size());
   const std::size_t dash = header.find('-');
   if (dash == std::string_view::npos) return {RangeKind::kWhole, {0, size}};
-  const std::string_view before = trimmed(header.substr(0, dash)), after = trimmed(header.substr(dash + 1));
+  const std::string_view before = io::trimmed(header.substr(0, dash)), after = io::trimmed(header.substr(dash + 1));
   const auto first = number(before), last = number(after);
   if ((!before.empty() && !first) || (!after.empty() && !last) || (!first && !last) ||
       (first && last && *last < *first))

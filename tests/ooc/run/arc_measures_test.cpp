@@ -133,7 +133,7 @@ ooc::MeasuredArcs measure(const ComplexMesh& mesh, const std::string& file, std:
                                                .output = temp.path() + "/out",
                                                .options = std::move(options)});
   UnfinalizedComplex again(mesh, seed);
-  return segmentation->measure(again);
+  return segmentation->measure(again, [](const MeshBatch&) {});
 }
 
 constexpr double kTolerance = 1e-9;

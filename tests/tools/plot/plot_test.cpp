@@ -335,6 +335,14 @@ TEST_F(Plot, RefusesBeforeAnyWork) {
   expect_success(reeb({"compute", "small.off", "--quiet"}));
   expect_error(reeb({"plot", "small.reeb", "--kind", "skeleton", "--mesh", "open.off", "-o", "a.svg"}), 1,
                "small.reeb: it is not the graph of this mesh: it says 4 triangles, the mesh has 3");
+  // And the same surface in other units.
+  write("moved.off", std::regex_replace(whole, std::regex("\n0 0 1\n"), "\n0 0 1000\n"));
+  for (const std::string surface : {"solid", "none"}) {
+    const Outcome moved =
+        reeb({"plot", "small.reeb", "--kind", "skeleton", "--mesh", "moved.off", "--surface", surface, "-o", "a.svg"});
+    expect_error(moved, 1, "moved.off: the node of vertex ");
+    EXPECT_NE(moved.error.find("has another position in the mesh"), std::string::npos) << moved.error;
+  }
 }
 
 TEST_F(Plot, OfAGraphAloneIsTheGraph) {

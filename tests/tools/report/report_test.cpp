@@ -285,11 +285,34 @@ TEST_F(Report, DescribesVolumes) {
             Json::parse(reeb({"info", "v.reeb", "--json"}).output)["graph"]["nodes"].dump());
 }
 
+// In other units it is another image.
+TEST_F(Report, RefusesAnImageOfAnotherSpacing) {
+  std::string values;
+  for (int i = 0; i < 6 * 6 * 6; ++i) values += static_cast<char>(i * 37 % 101);
+  write("v.raw", values);
+  const auto of_image = [](std::vector<std::string> words, const char* spacing) {
+    words.insert(words.end(), {"--grid", "6x6x6", "--type", "u8", "--spacing", spacing, "--quiet", "--force"});
+    return words;
+  };
+  expect_success(reeb(of_image({"compute", "v.raw"}, "1,1,5")));
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"report", "v.reeb", "--mesh", "v.raw", "-o", "v.html"},
+        {"extract", "v.reeb", "--mesh", "v.raw", "--format", "json", "-o", "v.json"},
+        {"plot", "v.reeb", "--kind", "skeleton", "--mesh", "v.raw", "-o", "v.svg"}}) {
+    expect_success(reeb(of_image(words, "1,1,5")));
+    const Outcome outcome = reeb(of_image(words, "1,1,4"));
+    expect_error(outcome, 1, "v.raw: the node of vertex ");
+    EXPECT_NE(outcome.error.find("--spacing"), std::string::npos) << outcome.error;
+  }
+}
+
 TEST_F(Report, DescribesWhatIsLeftOfADamagedFile) {
   report(planted());
   const std::string bytes = file("g.reeb");
   write("cut.reeb", bytes.substr(0, bytes.size() - 40));
-  expect_success(reeb({"report", "cut.reeb", "-o", "cut.html"}));
+  const Outcome outcome = reeb({"report", "cut.reeb", "-o", "cut.html"});
+  expect_success(outcome);
+  EXPECT_NE(outcome.error.find("reeb: warning: "), std::string::npos) << outcome.error;
   EXPECT_NE(file("cut.html").find("The file is damaged"), std::string::npos);
 }
 
