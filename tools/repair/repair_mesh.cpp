@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "io/file/content_source.h"
 #include "io/formats/open_mesh.h"
@@ -136,6 +138,7 @@ class Plan {
       if (options_.progress) options_.progress("curves", done, total, triangles);
     };
     Defects defects = find_defects(find);
+    if (!defects.note.empty()) repair_.warnings.push_back(defects.note);
     const auto& longest = options_.filter.limits.longest;
     if (longest && *longest > defects.scale.size && !defects.table.rows.empty())
       repair_.warnings.push_back(
@@ -158,7 +161,10 @@ class Plan {
     repair_.seam_vertices = cleaning_.seam_vertices;
     if (cleaning_.removed.empty()) return;
     MeshEdits& edits = repair_.edits;
-    edits.removed.insert(edits.removed.end(), cleaning_.removed.begin(), cleaning_.removed.end());
+    if (edits.removed.empty())
+      edits.removed = std::move(cleaning_.removed);
+    else
+      edits.removed.insert(edits.removed.end(), cleaning_.removed.begin(), cleaning_.removed.end());
     edits.sort();
     edits.dropped = unused_after(mesh, edits, jobs_.progress);
   }
@@ -215,7 +221,8 @@ std::string note_on_unclear(const Repair& repair) {
   if (unclear == 0) return {};
   const std::string note =
       "note: the kind of " + (unclear == 1 ? "one loop" : count_of(unclear, "loop")) + " is unclear; ";
-  const bool fill = repair.mesh_boundaries != 0 && !repair.cleaning.boundary_length;
+  // Seams must be joined first.
+  const bool fill = repair.mesh_boundaries != 0 && repair.seam_vertices == 0 && !repair.cleaning.boundary_length;
   const bool drop = repair.mesh_duplicates != 0 && !repair.cleaning.duplicates;
   const std::string boundaries = count_of(repair.mesh_boundaries, "boundary"),
                     duplicates = count_of(repair.mesh_duplicates, "duplicate triangle");
@@ -228,16 +235,43 @@ std::string note_on_unclear(const Repair& repair) {
   return repair.boundaries_filled + repair.duplicates != 0 ? note + "repair the output again" : std::string();
 }
 
+// What repair cannot change, and where loops stay unclear.
+std::vector<std::string> notes_on_obstacles(const Repair& repair) {
+  std::vector<std::string> lines;
+  const std::uint64_t edges = repair.nonmanifold_edges, vertices = repair.nonmanifold_vertices;
+  if (edges + vertices != 0) {
+    std::string places = edges != 0 ? count_of(edges, "non-manifold edge") : std::string();
+    if (vertices != 0) places += (edges != 0 ? " and " : "") + count_of(vertices, "non-manifold vertex");
+    lines.push_back("note: the mesh has " + places + ", which repair does not separate; a loop there stays unclear");
+  }
+  if (repair.pinched_boundaries != 0 && !repair.cleaning.boundary_length)
+    lines.push_back("note: the mesh has " + count_of(repair.pinched_boundaries, "boundary") +
+                    " that cannot be filled: not one simple path");
+  return lines;
+}
+
+void find_causes(const RepairOptions& options, Repair& repair) {
+  const ooc::MeshCensus census = census_of(options.mesh);
+  repair.mesh_duplicates = census.duplicates.count;
+  repair.nonmanifold_edges = census.nonmanifold_edges.count;
+  repair.nonmanifold_vertices = census.nonmanifold_vertices.count;
+  if (census.boundaries == 0 || options.cleaning.boundary_length) return;
+  ooc::Workspace space(options.mesh.temp_folder, options.mesh.memory_bytes);
+  CleaningOptions all_boundaries;
+  all_boundaries.boundary_length = std::numeric_limits<double>::infinity();
+  const Cleaning cleaning = plan_cleaning(ValuedMesh(options.mesh, {}), all_boundaries, space,
+                                          [&](std::uint64_t, std::uint64_t) { options.mesh.check_interruption(); });
+  repair.mesh_boundaries = cleaning.boundaries.size();
+  repair.pinched_boundaries = cleaning.pinched_boundaries;
+  repair.seam_vertices = cleaning.seam_vertices;
+}
+
 }  // namespace
 
 Repair plan_repair(const RepairOptions& options) {
   Repair repair = Plan(options).run();
   if (repair.repaired >= options.limit) repair.second_may_help = false;  // so would a greater limit
-  if (unclear_rows(repair) != 0 && !(options.cleaning.duplicates && options.cleaning.boundary_length)) {
-    const ooc::MeshCensus census = census_of(options.mesh);
-    repair.mesh_boundaries = census.boundaries;
-    repair.mesh_duplicates = census.duplicates.count;
-  }
+  if (unclear_rows(repair) != 0) find_causes(options, repair);
   return repair;
 }
 
@@ -265,6 +299,7 @@ std::vector<std::string> summary_of(const Repair& repair) {
     lines.push_back(note);
   else if (repair.second_may_help)
     lines.emplace_back("note: a second repair, of the output, may find curves of loops that are left");
+  for (std::string& note : notes_on_obstacles(repair)) lines.push_back(std::move(note));
   if (repair.cleaning.degenerate) lines.push_back(count_of(repair.degenerate, "degenerate triangle") + " dropped");
   if (repair.cleaning.duplicates) lines.push_back(count_of(repair.duplicates, "repeated triangle") + " dropped");
   if (repair.cleaning.components_percent)
@@ -274,14 +309,16 @@ std::vector<std::string> summary_of(const Repair& repair) {
                     (repair.isolated_vertices == 0 ? ""
                                                    : "; " + count_of(repair.isolated_vertices, "isolated vertex") +
                                                          (repair.isolated_vertices == 1 ? " stays" : " stay")));
-  if (!repair.cleaning.boundary_length) return lines;
-  lines.push_back(
-      (repair.boundaries_filled == 1 ? "1 boundary" : with_commas(repair.boundaries_filled) + " boundaries") +
-      " filled");
-  reasons.clear();
-  for (const std::string& why : repair.boundaries_left) ++reasons[why];
-  for (const auto& [why, count] : reasons) lines.push_back(with_commas(count) + " not filled: " + why);
-  if (!repair.boundaries_left.empty() && repair.seam_vertices != 0)
+  if (repair.cleaning.boundary_length) {
+    lines.push_back(
+        (repair.boundaries_filled == 1 ? "1 boundary" : with_commas(repair.boundaries_filled) + " boundaries") +
+        " filled");
+    reasons.clear();
+    for (const std::string& why : repair.boundaries_left) ++reasons[why];
+    for (const auto& [why, count] : reasons) lines.push_back(with_commas(count) + " not filled: " + why);
+  }
+  const bool fills_all = repair.cleaning.boundary_length && repair.boundaries_left.empty();
+  if (repair.seam_vertices != 0 && !fills_all)
     lines.push_back(
         "note: " + count_of(repair.seam_vertices, "vertex") +
         " of boundaries are in the place of another one, but not joined with it; docs/REPAIR.md has how to");

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -101,14 +102,16 @@ std::string why_not(const DefectRow& row, const Defects& defects, const RowFilte
   const RowLimits& limits = filter.limits;
   if (!limits.has_persistence(row))
     return fmt::format("persistence not below {:.6g}{}", *limits.below, limits.below_is_percent ? "%" : "");
-  if (row.curve.path.empty()) return "no short curve was found";
+  if (std::isinf(row.length())) return "no short curve was found";
   if (!limits.has_length(row)) return fmt::format("curve longer than --longest {:.6g}", *limits.longest);
   if (filter.is_none()) {
     const auto& suggested = defects.table.suggestion.length;
     if (!suggested) return "no length is suggested that divides defects from features";
     if (!(row.length() <= *suggested)) return fmt::format("curve longer than the suggested {:.6g}", *suggested);
   }
-  if (row.kind == DefectKind::kUnclear) return "kind unclear: a boundary, or no oriented manifold";
+  // A short contour need not be along edges where sheets meet.
+  if (row.kind == DefectKind::kUnclear || row.curve.path.empty())
+    return "kind unclear: a boundary, or no oriented manifold";
   return {};
 }
 

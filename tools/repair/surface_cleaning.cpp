@@ -36,6 +36,7 @@ class Cleaner {
         progress_(progress),
         corner_sets_("repeated triangles", space.temp, space.budget, sorting()),
         sides_("sides of edges", space.temp, space.budget, sorting()),
+        removed_memory_(space.budget.reserve("removed triangles", 0)),
         part_memory_(space.budget.reserve("components", 0)),
         end_memory_(space.budget.reserve("positions of boundaries", 0)) {}
 
@@ -77,6 +78,17 @@ class Cleaner {
         });
   }
 
+  void remove(std::uint64_t place) {
+    std::vector<std::uint64_t>& removed = result_.removed;
+    if (removed.size() == removed.capacity()) {
+      const std::size_t larger = std::max<std::size_t>(2 * removed.size(), 1024);
+      removed_memory_.resize((removed.size() + larger) * sizeof place);  // both are there while it grows
+      removed.reserve(larger);
+      removed_memory_.resize(larger * sizeof place);
+    }
+    removed.push_back(place);
+  }
+
   void join(std::uint64_t a, std::uint64_t b) {
     const std::uint64_t most = std::max(a, b);
     if (most >= (std::uint64_t{1} << 32) - 1)
@@ -102,7 +114,7 @@ class Cleaner {
       if (is_degenerate(c)) {
         if (options_.degenerate) {
           ++result_.degenerate;
-          result_.removed.push_back(place);
+          remove(place);
         }
         return;
       }
@@ -124,7 +136,7 @@ class Cleaner {
       for (const CornerSet& set : block) {
         if (any && set.corners == last) {
           ++result_.duplicates;
-          result_.removed.push_back(set.place);
+          remove(set.place);
         }
         last = set.corners;
         any = true;
@@ -133,8 +145,11 @@ class Cleaner {
   }
 
   void list_components() {
+    constexpr std::size_t kSizeBytes = 64, kSizesAtOnce = 4096;  // a node of the map
+    Reservation memory = space_.budget.reserve("sizes of components", 0);
     std::map<std::uint32_t, std::uint64_t> sizes;
     for_each_triangle([&](const std::array<std::uint64_t, 3>& c, std::uint64_t) {
+      if (memory.bytes() < kSizeBytes * (sizes.size() + 1)) memory.resize(kSizeBytes * (sizes.size() + kSizesAtOnce));
       sizes[part_.find(static_cast<std::uint32_t>(c[0]))] += is_degenerate(c) ? 0u : 1u;
     });
     std::uint64_t largest = 0;
@@ -147,7 +162,7 @@ class Cleaner {
     for_each_triangle([&](const std::array<std::uint64_t, 3>& c, std::uint64_t place) {
       if (!is_small(part_.find(static_cast<std::uint32_t>(c[0])))) return;
       ++result_.component_triangles;
-      result_.removed.push_back(place);
+      remove(place);
     });
     result_.in_dropped.resize(vertices_, false);
     for (std::uint32_t v = 0; v < part_.size(); ++v)
@@ -298,7 +313,7 @@ class Cleaner {
   const Progress& progress_;
   ooc::ExternalSort<CornerSet> corner_sets_;
   ooc::ExternalSort<EdgeSide> sides_;
-  Reservation part_memory_;
+  Reservation removed_memory_, part_memory_;
   UnionFind part_;
   Reservation end_memory_;
   std::vector<End> ends_;  // by vertex

@@ -35,8 +35,9 @@ struct Cleaning {
 };
 
 // Reads the mesh one to three times.
-// MEMORY: sorting on disk for duplicates and boundaries, 8 bytes per vertex for components and up to 130 per edge of a
-//         boundary, from the budget. What is returned is not charged.
+// MEMORY: sorting on disk for duplicates and boundaries, 8 bytes per vertex and 64 per component for components, up to
+//         24 per triangle that is removed and up to 130 per edge of a boundary, from the budget. What is returned is
+//         not charged any more.
 // THROWS: Error{kResource} if the memory does not suffice.
 Cleaning plan_cleaning(const ValuedMesh& mesh, const CleaningOptions& options, ooc::Workspace& space,
                        const std::function<void(std::uint64_t done, std::uint64_t total)>& progress);

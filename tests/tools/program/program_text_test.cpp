@@ -111,6 +111,36 @@ TEST(RepairSummary, SaysWhatMayHelpWithUnclearRows) {
   EXPECT_EQ(note(), "note: the kind of 2 loops is unclear; repair the output again");
 }
 
+TEST(RepairSummary, SaysWhatItCannotChange) {
+  Repair repair;
+  repair.rows.resize(1);
+  repair.rows[0].kind = DefectKind::kUnclear;
+  repair.rows[0].why = "kind unclear";
+  const auto text = [&] {
+    std::string all;
+    for (const std::string& line : summary_of(repair)) all += line + "\n";
+    return all;
+  };
+  const std::string before = text();
+  repair.nonmanifold_edges = 42;
+  repair.nonmanifold_vertices = 1;
+  EXPECT_EQ(text(), before +
+                        "note: the mesh has 42 non-manifold edges and 1 non-manifold vertex, which repair does not "
+                        "separate; a loop there stays unclear\n");
+  repair.nonmanifold_edges = 0;
+  EXPECT_NE(text().find("the mesh has 1 non-manifold vertex, which"), std::string::npos);
+  repair.nonmanifold_vertices = 0;
+  repair.pinched_boundaries = 2;
+  EXPECT_EQ(text(), before + "note: the mesh has 2 boundaries that cannot be filled: not one simple path\n");
+  // A seam is joined first.
+  repair.pinched_boundaries = 0;
+  repair.mesh_boundaries = 5;
+  EXPECT_NE(text().find("--fill-boundaries LENGTH"), std::string::npos);
+  repair.seam_vertices = 8;
+  EXPECT_EQ(text().find("--fill-boundaries LENGTH"), std::string::npos);
+  EXPECT_NE(text().find("note: 8 vertices of boundaries are in the place of another one"), std::string::npos);
+}
+
 TEST(RepairSummary, SaysThatNothingWasDropped) {
   Repair repair;
   repair.mesh_triangles = 5;
@@ -135,6 +165,20 @@ TEST(RowChoice, ALoopWithoutACurveIsNotCalledTooLong) {
     ASSERT_EQ(chosen.size(), 1u);
     EXPECT_EQ(chosen[0].why_not, "no short curve was found");
   }
+}
+
+// Where sheets meet, a short contour is not along edges, so it has a length and no path.
+TEST(RowChoice, ALoopWithALengthAndNoPathIsUnclear) {
+  Defects defects;
+  defects.functions = {"x"};
+  DefectRow row{};
+  row.length_contour = 0.5;
+  defects.table.rows = {row};
+  RowFilter all, shorter;
+  all.all = true;
+  shorter.limits.longest = 0.25;
+  EXPECT_EQ(choose_rows(defects, all)[0].why_not, "kind unclear: a boundary, or no oriented manifold");
+  EXPECT_EQ(choose_rows(defects, shorter)[0].why_not, "curve longer than --longest 0.25");
 }
 
 TEST(Quantity, CountsTakeUnitsFractionsAndExponents) {
