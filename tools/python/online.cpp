@@ -40,15 +40,21 @@ VertexId vertex_of(std::int64_t id, bool is_unsigned) {
   return VertexId(static_cast<std::uint64_t>(id));
 }
 
-void add_vertices(OnlineReeb& graph, const Numbers& values, const Numbers& positions) {
+// Returns the index of the first; 0 if there is none.
+std::uint64_t add_vertices(OnlineReeb& graph, const Numbers& values, const Numbers& positions) {
   const auto count = static_cast<std::size_t>(values.size());
   const double* const value = values.data();
   const double* const position = positions.size() == 0 ? nullptr : positions.data();
+  std::uint64_t first = 0;
   for (std::size_t i = 0; i < count; ++i) {
     Point place{};
     if (position != nullptr) std::copy_n(position + 3 * i, 3, place.begin());
-    at_item(std::isfinite(value[i]) ? "positions" : "values", i, [&] { graph.add_vertex(value[i], place); });
+    at_item(std::isfinite(value[i]) ? "positions" : "values", i, [&] {
+      const VertexId added = graph.add_vertex(value[i], place);
+      if (i == 0) first = added.value();
+    });
   }
+  return first;
 }
 
 void add_simplices(OnlineReeb& graph, const Ids& simplices, bool is_unsigned) {

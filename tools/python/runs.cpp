@@ -186,8 +186,16 @@ py::list compute_graphs(const Mesh& mesh, const std::vector<std::string>& functi
                   ? compute(std::get<std::string>(mesh), functions, outputs, options)
                   : compute(std::get<const HeldMesh*>(mesh)->open, functions, outputs, options);
   });
+  std::string denoise;
+  take(given, "denoise_text", denoise);
   py::list dicts;
-  for (const ComputeResult& result : results) dicts.append(to_dict(result));
+  for (ComputeResult& result : results) {
+    if (const std::string note =
+            denoise.empty() ? std::string() : tools::large_threshold(denoise, result.range, result.function);
+        !note.empty())
+      result.notes.push_back(note);
+    dicts.append(to_dict(result));
+  }
   return dicts;
 }
 
@@ -260,6 +268,7 @@ std::string defects(const std::string& mesh, const std::vector<std::string>& fil
   WatchedRun run(progress);
   const ComputeOptions options = compute_options(given, run);
   std::ostringstream text;
+  std::string note;
   run.run([&] {
     const TempFolder folder(options.temp_dir);
     tools::FindDefectsOptions find;
@@ -279,7 +288,9 @@ std::string defects(const std::string& mesh, const std::vector<std::string>& fil
     std::vector<tools::RankedRow> rows;
     for (std::size_t i = 0; i < found.table.rows.size(); ++i) rows.push_back({i + 1, &found.table.rows[i]});
     tools::write_defect_json(found, rows, tools::census_of(find.mesh), text);
+    note = found.note;
   });
+  if (!note.empty() && PyErr_WarnEx(PyExc_UserWarning, note.c_str(), 1) != 0) throw py::error_already_set();
   return text.str();
 }
 
@@ -294,6 +305,10 @@ void add_runs(py::module_& module) {
   module.def("defects", &defects);
   module.def("divide", &divide);
   module.def("parse_size", [](const std::string& text) { return tools::parse_size("memory", text); });
+  module.def("large_threshold",
+             [](const std::string& text, double least, double greatest, const std::string& function) {
+               return tools::large_threshold(text, {least, greatest}, function);
+             });
   module.def("parse_threshold", [](const std::string& name, const std::string& text, double least, double greatest) {
     return tools::parse_threshold(name, text, {least, greatest});
   });

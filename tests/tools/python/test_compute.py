@@ -1,10 +1,12 @@
 """reeb.compute, of paths, arrays, objects and images."""
 
+import math
 import os
 import pickle
 import random
 import subprocess
 import types
+import warnings
 
 import numpy as np
 import pytest
@@ -307,3 +309,17 @@ def test_rounded_integers_give_a_note():
     vertices = np.array([[0, 0, 2**60 + 1], [1, 0, 0], [2, 0, 1]])
     assert reeb.compute(vertices, [[0, 1, 2]], f="x").result["notes"] == one
     assert reeb.compute(values.reshape(3, 1) // 2, f="value").result["notes"] == []
+
+
+def test_a_threshold_above_the_range_is_noted():
+    vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 2]]
+    assert reeb.compute(vertices, [[0, 1, 2]], denoise=2).result["notes"] == []
+    (note,) = reeb.compute(vertices, [[0, 1, 2]], denoise=5).result["notes"]
+    assert note == "the threshold 5.0 is more than the range 2 of z; did you mean 5.0%?"
+    graph = reeb.compute(vertices, [[0, 1, 2]])
+    with pytest.warns(UserWarning, match="the threshold 200% is more than the range of z"):
+        graph.level("200%")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for threshold in (2, "100%", math.inf):
+            graph.level(threshold)

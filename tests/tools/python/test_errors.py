@@ -45,11 +45,11 @@ NAN[5, 1] = np.nan
         ((np.ma.masked_less(VERTICES, 0),), {"f": "value"}, 'nodata="skip"', None, "input"),
         ((VERTICES,), {}, "faces are missing", None, "usage"),
         ((VERTICES[:, :2].tolist(),), {"f": "y"}, "faces are missing", None, "usage"),
-        ((VERTICES, FACES.ravel()), {}, "1 axes", None, "input"),
+        ((VERTICES, FACES.ravel()), {}, "1 axis", None, "input"),
         ((VERTICES, np.zeros((1, 10), int)), {}, "10 columns", None, "input"),
         ((VERTICES, [[0, 1, 2], [0, 1]]), {}, "faces is not an array", None, "input"),
         ((VERTICES, "abc"), {}, "faces is a str, not an array", None, "input"),
-        ((VERTICES.ravel(), FACES), {}, "1 axes", None, "input"),
+        ((VERTICES.ravel(), FACES), {}, "1 axis", None, "input"),
         ((np.zeros((48, 10)), FACES), {}, "10 coordinates", None, "input"),
         ((VERTICES.astype(str), FACES), {}, "not numbers", None, "input"),
         ((VERTICES.astype(complex), FACES), {}, "not numbers", None, "input"),
@@ -138,7 +138,7 @@ def test_cells_are_as_wide_as_their_names_say(kind, width):
             with pytest.raises(reeb.Error, match=f"{name} has {columns} columns, not {width}") as caught:
                 compute(VERTICES, {kind: cells_of(columns)})
             assert caught.value.kind == "input" and f"(m, {width})" in caught.value.hint
-        with pytest.raises(reeb.Error, match=f"{name} has 1 axes"):
+        with pytest.raises(reeb.Error, match=f"{name} has 1 axis"):
             compute(VERTICES, {kind: cells_of(width).ravel()})
 
 

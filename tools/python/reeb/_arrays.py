@@ -41,7 +41,8 @@ def numbers(name, array, axes, shape, *, of_indices=False):
     if array.ndim == 0 and array.dtype.kind not in "iufb":
         raise Error(f"{name} is {described(array.item())}, not an array", shape)
     if array.ndim not in axes:
-        raise Error(f"{name} has {array.ndim} axes, not {' or '.join(map(str, axes))}", shape)
+        unit = "axis" if array.ndim == 1 else "axes"
+        raise Error(f"{name} has {array.ndim} {unit}, not {' or '.join(map(str, axes))}", shape)
     if array.dtype.kind == "b":
         if of_indices:
             raise Error(f"{name} has true and false, not indices of vertices", _INDICES)

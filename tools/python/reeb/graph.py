@@ -2,8 +2,10 @@
 
 import contextlib
 import io
+import math
 import os
 import tempfile
+import warnings
 from typing import NamedTuple
 
 import numpy as np
@@ -465,12 +467,17 @@ class Graph:
             return file.finest_with_memory(
                 _reeb.parse_size(memory) if isinstance(memory, str) else whole("memory", memory, 0)
             )
-        if isinstance(threshold, str):
-            least, greatest = self.range
-            return file.version_at(_reeb.parse_threshold("threshold", threshold, least, greatest))
-        if not is_number(threshold) or not threshold >= 0:
+        if not isinstance(threshold, str) and (not is_number(threshold) or not threshold >= 0):
             raise Error(f"threshold={threshold!r} is not a threshold", 'as 0.01, or "0.1%"', kind="usage")
-        return file.version_at(float(threshold))
+        least, greatest = self.range
+        value = threshold
+        if isinstance(threshold, str):
+            value = _reeb.parse_threshold("threshold", threshold, least, greatest)
+        value = float(value)
+        text = _threshold_text(threshold)
+        if math.isfinite(value) and (note := _reeb.large_threshold(text, least, greatest, self.function)):
+            warnings.warn(note, stacklevel=3)
+        return file.version_at(value)
 
     def _go_to(self, version):
         if self._listener is not None:

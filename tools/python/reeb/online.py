@@ -21,7 +21,6 @@ class Online:
 
     def __init__(self):
         self._graph = _reeb.Online()
-        self._count = 0
 
     def add_vertices(self, values, positions=None):
         """Adds the next vertices.
@@ -43,14 +42,8 @@ class Online:
             positions = np.ascontiguousarray(_arrays.numbers("positions", positions, (2,), _arrays.OF_VERTICES), float)
             if positions.shape != (len(values), 3):
                 raise Error(f"positions have the shape {positions.shape}", f"({len(values)}, 3)")
-        first = self._count
-        finite = np.isfinite(values)
-        if positions.size:
-            finite &= np.isfinite(positions).all(axis=1)
-        added = len(values) if finite.all() else int(np.argmin(finite))
-        self._count += added
-        self._graph.add_vertices(values, positions)
-        return np.arange(first, first + added)
+        first = self._graph.add_vertices(values, positions)
+        return np.arange(first, first + len(values))
 
     def add_simplices(self, simplices):
         """Adds simplices.

@@ -301,13 +301,12 @@ def _grid(sizes):
 def _add_denoise(options, denoise):
     if denoise is None:
         return
-    if isinstance(denoise, str):
-        options["denoise_is_share"] = denoise.strip().endswith("%")
-        options["denoise"] = _reeb.parse_threshold("denoise", denoise, 0, 1)
-    elif is_number(denoise):
-        options["denoise"] = _reeb.parse_threshold("denoise", repr(float(denoise)), 0, 1)
-    else:
+    if not isinstance(denoise, str) and not is_number(denoise):
         raise Error(f"denoise={denoise!r} is not a threshold", 'as 0.01, or "0.1%"', kind="usage")
+    text = denoise if isinstance(denoise, str) else repr(float(denoise))
+    options["denoise"] = _reeb.parse_threshold("denoise", text, 0, 1)
+    options["denoise_is_share"] = text.strip().endswith("%")
+    options["denoise_text"] = text  # for notes
 
 
 class _Bar:
@@ -510,6 +509,8 @@ def defects(
                 mesh, faces, _ = _arrays.parts_of_object(mesh)
             if faces is None:
                 _arrays.check_mesh(mesh)
+                if np.ndim(mesh) == 3:
+                    raise Error("an image is not a surface", "make an isosurface of it first", kind="usage")
                 raise Error("faces are missing", "reeb.defects(vertices, faces)", kind="usage")
             path = os.path.join(folder, "mesh.ply")
             _write_ply(path, mesh, faces)
