@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "io/file/file_name.h"
+#include "io/text/hints.h"
 #include "libreeb/base/count_text.h"
 
 namespace reeb::io {
@@ -23,6 +24,7 @@ CxReader::CxReader(std::unique_ptr<ContentSource> source, ReadOptions options)
   if (!text_.more()) return;
   if (const std::string_view keyword = text_.token(); keyword != "v")
     text_.fail(keyword == "s" ? "a simplex comes before all vertices" : "the first item is not a vertex", kItemHint);
+  last_item_line_ = text_.line();
   read_numbers();
   info_.dimension = static_cast<unsigned>(numbers_.size());
   first_waits_ = true;
@@ -34,8 +36,12 @@ void CxReader::fill(MeshBatch& batch) {
 }
 
 bool CxReader::read_line(MeshBatch& batch) {
-  if (!text_.more()) return false;
+  if (!text_.more()) {
+    has_open_line_ = last_item_line_ == text_.line();
+    return false;
+  }
   const std::string_view keyword = text_.token();
+  last_item_line_ = text_.line();
   if (keyword == "v") {
     read_numbers();
     if (numbers_.size() != info_.dimension)
@@ -49,6 +55,11 @@ bool CxReader::read_line(MeshBatch& batch) {
     text_.fail("a line begins with neither v nor s", kItemHint);
   }
   return true;
+}
+
+std::vector<std::string> CxReader::warnings() const {
+  if (has_open_line_) return {kOpenLineNote};
+  return {};
 }
 
 void CxReader::read_numbers() {

@@ -22,6 +22,7 @@ class CxReader final : public BatchReader {
   CxReader(std::unique_ptr<ContentSource> source, ReadOptions options);
 
   std::uint64_t bytes_read() const override { return text_.bytes_read(); }
+  std::vector<std::string> warnings() const override;
 
  private:
   void fill(MeshBatch& batch) override;
@@ -34,6 +35,8 @@ class CxReader final : public BatchReader {
   TextCursor text_;
   std::vector<double> numbers_;  // of the vertex that was read last
   bool first_waits_ = false;     // the first vertex was read, and is in no batch yet
+  std::uint64_t last_item_line_ = 0;
+  bool has_open_line_ = false;  // an item is on the last line, which has no end
   std::vector<VertexId> corners_;
 };
 

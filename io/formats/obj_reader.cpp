@@ -44,12 +44,13 @@ void ObjReader::fill(MeshBatch& batch) {
     else if (text_.more())
       begin_line(batch);
     else
-      return check_lines();
+      return finish();
   }
 }
 
-// At the end. A file of comments is a mesh without vertices.
-void ObjReader::check_lines() const {
+// A file of comments is a mesh without vertices.
+void ObjReader::finish() {
+  has_open_line_ = last_item_line_ == text_.line();
   if (has_obj_line_ || unknown_lines_ == 0) return;
   throw Error(ErrorKind::kBadInput, "none of its lines is OBJ",
               "it may be of another format: leave --format out, or give the right one")
@@ -87,9 +88,11 @@ bool ObjReader::read_plain_face(MeshBatch& batch) {
 void ObjReader::begin_line(MeshBatch& batch) {
   const std::string_view keyword = text_.token();
   if (keyword == "v") {
+    last_item_line_ = text_.line();
     read_vertex(batch);
   } else if (keyword == "f" || keyword == "l" || keyword == "fo" || keyword == "p") {
     has_obj_line_ = true;
+    last_item_line_ = text_.line();
     const std::string name(keyword);  // more_on_line() may move the text
     if (!text_.more_on_line()) text_.fail('"' + name + "\" without a vertex", kCutOrDamagedHereHint);
     face_.begin(name == "l" ? FaceShape::kPolyline : name == "p" ? FaceShape::kPoints : FaceShape::kPolygon);
@@ -188,6 +191,7 @@ std::vector<std::string> ObjReader::warnings() const {
   if (non_finite_extras_ != 0)
     lines.push_back(count_of(non_finite_extras_, "number") + " for weights or colours, which are not used, " +
                     (non_finite_extras_ == 1 ? "is" : "are") + " not finite");
+  if (has_open_line_) lines.emplace_back(kOpenLineNote);
   return lines;
 }
 

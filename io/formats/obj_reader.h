@@ -31,7 +31,7 @@ class ObjReader final : public BatchReader {
   void read_vertex(MeshBatch& batch);
   void add_vertex(const std::array<double, 3>& point, MeshBatch& batch);
   void read_corner(MeshBatch& batch);
-  void check_lines() const;
+  void finish();
   void note_skipped(std::string_view keyword);
   VertexId corner();
   void skip_texture_and_normal();
@@ -44,6 +44,8 @@ class ObjReader final : public BatchReader {
     bool normals = false, texture = false, colors = false, groups = false, materials = false;
   } skipped_;
   std::uint64_t unknown_lines_ = 0, first_unknown_line_ = 0, non_finite_extras_ = 0;
+  std::uint64_t last_item_line_ = 0;  // of a vertex or a simplex that was not read at once
+  bool has_open_line_ = false;        // an item is on the last line, which has no end
 };
 
 }  // namespace reeb::io

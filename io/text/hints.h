@@ -9,5 +9,7 @@ inline constexpr const char* kCutOrHeaderHint = "the file is cut, or its header 
 inline constexpr const char* kHeaderHint = "fix the header, or write the file again";
 inline constexpr const char* kDamagedHereHint = "the file may be damaged here";
 inline constexpr const char* kCutOrDamagedHereHint = "the file may be cut or damaged here";
+// A note, of formats that do not say how much is to come.
+inline constexpr const char* kOpenLineNote = "the last line has no line end; the file may be cut there";
 
 }  // namespace reeb::io

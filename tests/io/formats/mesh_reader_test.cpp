@@ -285,6 +285,26 @@ TEST(Readers, SurplusValuesAtTheEndOfALineAreCounted) {
             std::vector<std::string>{"6 values at the end of lines were ignored: the header does not declare them"});
 }
 
+// These formats do not say how much is to come, so a cut file can look whole.
+TEST(Readers, AnItemOnALastLineWithoutAnEndIsNoted) {
+  const std::vector<std::string> note = {"the last line has no line end; the file may be cut there"};
+  const auto notes = [](const std::string& name, const std::string& text) {
+    const auto reader = open_mesh(write_file(name, text));
+    read_all(*reader);
+    return reader->warnings();
+  };
+  const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4",
+                    cx = "v 0 0\nv 1 0\nv 0 1\ns 0 1 2\ns 0 1";
+  EXPECT_EQ(notes("a.obj", obj), note);
+  EXPECT_EQ(notes("a.cx", cx), note);
+  EXPECT_EQ(notes("a.obj", "v 0 0 0\nv 1 0 0"), note);
+  EXPECT_EQ(notes("a.cx", "v 0 0"), note);
+  for (const std::string end : {"\n", "\n\n", "\r\n", "\n# the end", "\n "}) {
+    EXPECT_EQ(notes("a.obj", obj + end), std::vector<std::string>()) << end;
+    EXPECT_EQ(notes("a.cx", cx + end), std::vector<std::string>()) << end;
+  }
+}
+
 TEST(Ply, AHeaderLineThatLacksTheWordComment) {
   for (std::string text : {ascii_ply(), binary_ply(false)}) {
     text.insert(text.find("element vertex"), "Created by a scanner, 7 int\nproduced with care\n");
