@@ -103,6 +103,9 @@ std::uint32_t ReebFile::version_at(double threshold) const {
 
 std::uint32_t ReebFile::finest_with_nodes(std::uint64_t limit) const {
   require_hierarchy("levels");
+  // A finer level has more nodes. So nothing beyond this one is read, where a file may be cut.
+  for (const LevelLine& level : header().levels)
+    if (level.nodes == limit) return level.version;
   return finest_within(
       *frames_, limit, [](std::uint64_t nodes, std::uint64_t) { return nodes; }, "nodes");
 }

@@ -347,6 +347,11 @@ TEST_F(Report, ShowsTheLevelsThatACutFileHas) {
     expect_success(reeb(level));
   }
   EXPECT_EQ(Json::parse(file("g.json"))["nodes"].size(), finest["nodes"]);
+  // By the number of its nodes, too, though the frames after it are missing.
+  for (const char* name : {"cut", "scan"})
+    expect_success(reeb(
+        {"extract", name + std::string(".reeb"), "--nodes", finest["nodes"].dump(), "-o", name + std::string(".rg")}));
+  EXPECT_EQ(file("cut.rg"), file("scan.rg"));
   const Outcome pairs = reeb({"pairs", "cut.reeb"});
   EXPECT_EQ(lines_after("hint: pairs are at the end of a file", pairs.error).size(), 1u) << pairs.error;
 }
