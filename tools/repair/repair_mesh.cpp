@@ -12,6 +12,7 @@
 #include "io/file/content_source.h"
 #include "io/formats/open_mesh.h"
 #include "libreeb/base/count_text.h"
+#include "libreeb/base/error.h"
 #include "tools/defects/surface_census.h"
 #include "tools/repair/mesh_output.h"
 #include "tools/repair/repair_jobs.h"
@@ -255,6 +256,7 @@ void find_causes(const RepairOptions& options, Repair& repair) {
   repair.mesh_duplicates = census.duplicates.count;
   repair.nonmanifold_edges = census.nonmanifold_edges.count;
   repair.nonmanifold_vertices = census.nonmanifold_vertices.count;
+  repair.mesh_boundaries = census.boundaries;
   if (census.boundaries == 0 || options.cleaning.boundary_length) return;
   ooc::Workspace space(options.mesh.temp_folder, options.mesh.memory_bytes);
   CleaningOptions all_boundaries;
@@ -271,7 +273,11 @@ void find_causes(const RepairOptions& options, Repair& repair) {
 Repair plan_repair(const RepairOptions& options) {
   Repair repair = Plan(options).run();
   if (repair.repaired >= options.limit) repair.second_may_help = false;  // so would a greater limit
-  if (unclear_rows(repair) != 0) find_causes(options, repair);
+  try {
+    if (unclear_rows(repair) != 0) find_causes(options, repair);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kResource) throw;  // advice is no reason to fail where memory is scarce
+  }
   return repair;
 }
 
