@@ -117,7 +117,6 @@ std::string graph_picture(const ReebGraph& graph, const GraphLayout& layout, con
   if (layout.left_out > 0)
     complete.subtitle += "; " + with_commas(layout.left_out) + " of the components of one node or arc are not drawn";
   const bool as_lines = graph.arc_count() <= kMostArcsAsLines && graph.node_count() <= 2 * kMostArcsAsLines;
-  if (!as_lines) complete.subtitle += "; minima and maxima are dots, forks are not marked";
   std::string svg = begin_svg(kWidth, kHeight, complete);
   std::string axis;
   append_axis(axis, graph, function);
@@ -125,6 +124,9 @@ std::string graph_picture(const ReebGraph& graph, const GraphLayout& layout, con
   svg += axis;
   if (as_lines) append_lines(svg, graph, layout, kinds);
   append_legend(svg, {kLeft + 14, kHeight - 16}, kinds);
+  if (!as_lines)
+    append_text(svg, {kWidth - kRight, kHeight - 12}, "Minima and maxima are dots; forks are not marked.",
+                {.size = 11, .anchor = "end", .color = kGreyInk});
   return svg + "</svg>\n";
 }
 
