@@ -46,13 +46,13 @@ VtkXmlKind read_vtk_xml_kind(const XmlAttributes& attributes, const XmlParser& x
 }
 
 // The underscore is looked for in the view that the tag ends in: a pipe has that still.
-AppendedData find_appended_data(ContentSource& source, const XmlParser& xml, std::uint64_t tag_end) {
+std::uint64_t find_appended_data(ContentSource& source, const XmlParser& xml, std::uint64_t tag_end) {
   for (const std::uint64_t from : {xml.view_offset(), tag_end}) {
     const std::string_view rest = source.view(from).substr(static_cast<std::size_t>(tag_end - from));
     const auto mark = std::ranges::find_if_not(rest, is_blank_or_line_end);
     if (mark == rest.end()) continue;
     if (*mark != '_') break;
-    return {tag_end + static_cast<std::uint64_t>(mark - rest.begin()) + 1, from};
+    return tag_end + static_cast<std::uint64_t>(mark - rest.begin()) + 1;
   }
   throw Error(ErrorKind::kBadInput, "the appended data do not begin with an underscore", kCutOrDamagedHint)
       .at(source.name(), std::to_string(tag_end));

@@ -30,13 +30,9 @@ std::optional<ScalarType> vtk_scalar_type(std::string_view name);
 [[noreturn]] void refuse_attribute(const XmlParser& xml, const std::string& element, const std::string& attribute,
                                    const std::string& value);
 
-// The bytes of the element AppendedData begin after the first underscore.
-struct AppendedData {
-  std::uint64_t offset = 0;       // of the first of them
-  std::uint64_t view_offset = 0;  // of the last view that was taken of the content
-};
-// `tag_end`: the offset after the tag. REQUIRES: the parser has stopped there.
+// Where the bytes of the element AppendedData begin: after the first underscore. `tag_end`: the offset after the tag.
+// REQUIRES: the parser has stopped there.
 // THROWS: Error{kBadInput} if something else comes first.
-AppendedData find_appended_data(ContentSource& source, const XmlParser& xml, std::uint64_t tag_end);
+std::uint64_t find_appended_data(ContentSource& source, const XmlParser& xml, std::uint64_t tag_end);
 
 }  // namespace reeb::io

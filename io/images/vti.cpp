@@ -85,7 +85,6 @@ class VtiHeader final : public XmlParser::Handler {
   EntryLimit array_limit_{"arrays"};
   std::optional<std::uint64_t> appended_;  // the offset after the tag
   bool appended_base64_ = false;
-  std::uint64_t viewed_ = 0;  // where the last view of the content began
 };
 
 // The text of the array of points with this number.
@@ -157,9 +156,8 @@ Image VtiHeader::parse() {
     for (unsigned k = 0; k < 3; ++k)
       image.info.origin[c] += static_cast<double>(extent_[2 * k]) * image.info.step[k][c];
   }
-  viewed_ = xml_.view_offset();
   take_storage(image, number);
-  image.from_start = viewed_ != 0 && !source_.can_seek();
+  image.from_start = source_.least_offset() != 0;
   std::string others;
   for (const PointDataArray& other : arrays_)
     if (&other != &*chosen) others += (others.empty() ? "" : ", ") + other.name;
@@ -303,9 +301,7 @@ void VtiHeader::take_storage(Image& image, std::size_t number) {
   const auto offset = whole_number<std::uint64_t>(array.offset);
   if (!offset || *offset >> 60 != 0) refuse("the array has no valid offset in the appended data");
   if (!appended_) refuse("the file has no appended data");
-  const AppendedData data = find_appended_data(source_, xml_, *appended_);
-  viewed_ = data.view_offset;
-  image.offset = data.offset + *offset;
+  image.offset = find_appended_data(source_, xml_, *appended_) + *offset;
   if (!base64 && kind.packing == BlockPacking::kNone) image.first_value = image.offset + (kind.wide_head ? 8 : 4);
   image.open_bytes = [begin = image.offset, base64, kind](std::unique_ptr<ContentSource> source) {
     std::unique_ptr<ByteInput> bytes = std::make_unique<ContentBytes>(std::move(source), begin);

@@ -58,7 +58,7 @@ class XmlIndexer final : private XmlParser::Handler {
       });
       return std::move(file_);
     }
-    const std::uint64_t begin = find_appended_data(*source_, xml_, *appended_).offset;
+    const std::uint64_t begin = find_appended_data(*source_, xml_, *appended_);
     for_each_place(file_, [&](NumberPlace& place) {
       if (place.coding != NumberCoding::kAppended) return;
       place.coding = appended_coding_;
