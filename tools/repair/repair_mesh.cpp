@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
@@ -118,7 +119,7 @@ class Plan {
     }
     if (repair_.repaired == 0) return;
     for (std::size_t i = 0; i < rows_.size(); ++i)
-      if (rows_[i].row->curve.path.empty() || (failed_[i] != 0 && !is_dropped(*rows_[i].row)))
+      if (std::isinf(rows_[i].row->length()) || (failed_[i] != 0 && !is_dropped(*rows_[i].row)))
         repair_.second_may_help = true;
   }
 
@@ -245,9 +246,9 @@ std::vector<std::string> notes_on_obstacles(const Repair& repair) {
     if (vertices != 0) places += (edges != 0 ? " and " : "") + count_of(vertices, "non-manifold vertex");
     lines.push_back("note: the mesh has " + places + ", which repair does not separate; a loop there stays unclear");
   }
-  if (repair.pinched_boundaries != 0 && !repair.cleaning.boundary_length)
-    lines.push_back("note: the mesh has " + count_of(repair.pinched_boundaries, "boundary") +
-                    " that cannot be filled: not one simple path");
+  if (const std::uint64_t pinched = repair.pinched_boundaries; pinched != 0 && !repair.cleaning.boundary_length)
+    lines.push_back("note: " + count_of(pinched, "boundary") + " of the mesh cannot be filled: " +
+                    (pinched == 1 ? "it is not a simple path" : "they are not simple paths"));
   return lines;
 }
 

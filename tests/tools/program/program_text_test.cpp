@@ -131,7 +131,7 @@ TEST(RepairSummary, SaysWhatItCannotChange) {
   EXPECT_NE(text().find("the mesh has 1 non-manifold vertex, which"), std::string::npos);
   repair.nonmanifold_vertices = 0;
   repair.pinched_boundaries = 2;
-  EXPECT_EQ(text(), before + "note: the mesh has 2 boundaries that cannot be filled: not one simple path\n");
+  EXPECT_EQ(text(), before + "note: 2 boundaries of the mesh cannot be filled: they are not simple paths\n");
   // A seam is joined first.
   repair.pinched_boundaries = 0;
   repair.mesh_boundaries = 5;
