@@ -45,6 +45,7 @@ class CellInput {
   // As MeshReader.
   virtual std::uint64_t bytes_read() const = 0;
   virtual std::uint64_t memory_bytes() const { return 0; }
+  virtual std::vector<std::string> warnings() const { return {}; }
 };
 
 }  // namespace reeb::io

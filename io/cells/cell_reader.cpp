@@ -65,7 +65,7 @@ class CellReader final : public BatchReader {
     return input_->memory_bytes() + (selection_ ? selection_->memory_bytes() : 0);
   }
   std::vector<std::string> warnings() const override {
-    std::vector<std::string> lines;
+    std::vector<std::string> lines = input_->warnings();
     const std::uint64_t dropped = selection_ ? selection_->node_count() - selection_->kept_count() : 0;
     if (dropped != 0)
       lines.push_back(count_of(dropped, "node") + " of higher-order cells, which " +

@@ -10,6 +10,7 @@
 #include "io/text/entry_limit.h"
 #include "io/text/hints.h"
 #include "io/text/text_cursor.h"
+#include "io/text/words.h"
 #include "libreeb/base/count_text.h"
 
 namespace reeb::io {
@@ -50,9 +51,35 @@ struct MeditIndex {
   MeshInfo info;
   bool has_inner_nodes = false;
   std::vector<MeditSection> sections;  // vertices first
+  std::string unknown;                 // a section with a name that is not known, if there is one
+  std::uint64_t unknown_count = 0;
 };
 
-bool begins_word(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+// Sections that say something about vertices and cells of other sections.
+constexpr std::string_view kOtherSections[] = {
+    "AngleOfCornerBound",
+    "BoundingBox",
+    "Corners",
+    "EdgeOnGeometricEdge",
+    "Geometry",
+    "Identifier",
+    "Normals",
+    "NormalAtVertices",
+    "NormalAtQuadrilateralVertices",
+    "NormalAtTriangleVertices",
+    "RequiredEdges",
+    "RequiredQuadrilaterals",
+    "RequiredTriangles",
+    "RequiredVertices",
+    "Ridges",
+    "SubDomainFromGeom",
+    "SubDomainFromMesh",
+    "TangentAtEdges",
+    "TangentAtVertices",
+    "Tangents",
+    "VertexOnGeometricEdge",
+    "VertexOnGeometricVertex",
+};
 
 std::uint64_t read_count(TextCursor& text) {
   if (!text.more()) {
@@ -62,11 +89,6 @@ std::uint64_t read_count(TextCursor& text) {
   const std::int64_t count = text.integer("count");
   if (count < 0) text.fail("a count is negative", kCutOrDamagedHereHint);
   return static_cast<std::uint64_t>(count);
-}
-
-// Numbers up to the next keyword.
-void skip_numbers(TextCursor& text) {
-  while (text.more() && !begins_word(text.peek())) text.skip_line();
 }
 
 void read_version(TextCursor& text, MeshInfo& info) {
@@ -117,8 +139,10 @@ MeditIndex read_medit_index(const ContentSource& content) {
         index.has_inner_nodes |= cells->nodes != corner_count(cells->shape) && section.count != 0;
         index.sections.push_back(section);
       }
+    } else if (std::ranges::find(kOtherSections, keyword) == std::end(kOtherSections) && index.unknown_count++ == 0) {
+      index.unknown = keyword;
     }
-    skip_numbers(text);
+    text.skip_to_name();
   }
   if (!vertices) {
     text.mark();
@@ -140,6 +164,7 @@ class MeditInput final : public CellInput {
   Step next(CellHead& cell) override {
     if (in_cell_) skip_reference();
     while (left_ == 0) {
+      if (text_->more() && !is_letter(text_->peek())) ++surplus_sections_;
       if (++section_ >= index_->sections.size()) return Step::kEnd;
       open_section();
     }
@@ -177,6 +202,16 @@ class MeditInput final : public CellInput {
   }
 
   std::uint64_t bytes_read() const override { return text_->bytes_read(); }
+  std::vector<std::string> warnings() const override {
+    std::vector<std::string> lines;
+    if (index_->unknown_count != 0)
+      lines.push_back(count_of(index_->unknown_count, "section") + " with a name that is not known " +
+                      (index_->unknown_count == 1 ? "was" : "were") + " ignored; the first is " +
+                      in_quotes(index_->unknown));
+    if (surplus_sections_ != 0)
+      lines.push_back("records after the announced number were ignored, in " + count_of(surplus_sections_, "section"));
+    return lines;
+  }
 
  private:
   void open_section() {
@@ -198,7 +233,7 @@ class MeditInput final : public CellInput {
   std::shared_ptr<const MeditIndex> index_;
   std::optional<TextCursor> text_;
   std::size_t section_ = 0;
-  std::uint64_t left_ = 0;
+  std::uint64_t left_ = 0, surplus_sections_ = 0;
   bool in_cell_ = false;  // its reference was not read
 };
 

@@ -19,7 +19,7 @@ void MshItems::read_format() {
   text_.more();
   const std::string version(text_.token());
   format_.version4 = version == "4.1";
-  if (!format_.version4 && version != "2.2" && version != "2.1" && version != "2")
+  if (!format_.version4 && version != "2.2" && version != "2.1" && version != "2.0" && version != "2")
     text_.fail("the file is of MSH version " + version.substr(0, 20) + ", which is not read", kVersions);
   const auto binary = text_.integer("file type");
   const auto size = text_.integer("data size");

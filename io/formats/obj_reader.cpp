@@ -124,11 +124,11 @@ void ObjReader::read_vertex(MeshBatch& batch) {
   unsigned numbers = 3;
   for (; text_.more_on_line(); ++numbers)
     if (spells_non_finite(text_.token())) ++non_finite_extras_;
-  if (numbers == 5 || numbers > 6)
+  if (numbers == 5 || numbers > 7)
     text_.fail("a vertex of " + std::to_string(numbers) + " numbers",
-               "a vertex has 3 coordinates, and perhaps a weight or a colour of 3 numbers");
+               "a vertex has 3 coordinates, and perhaps a weight or a colour of 3 or 4 numbers");
   text_.skip_line();
-  if (numbers == 6) skipped_.colors = true;
+  if (numbers >= 6) skipped_.colors = true;
   add_vertex(point, batch);
 }
 

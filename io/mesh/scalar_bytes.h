@@ -87,6 +87,9 @@ inline std::size_t byte_size(ScalarType type) {
   return with_type(type, [](auto zero) { return sizeof zero; });
 }
 
+// Whether each value of the type is exactly a float32.
+inline bool fits_float32(ScalarType type) { return type == ScalarType::kFloat32 || byte_size(type) < 4; }
+
 // The largest value of an integer type.
 inline std::uint64_t largest_value(ScalarType type) {
   return with_type(type,

@@ -53,9 +53,8 @@ MeshInfo describe(const PlyHeader& header, const ContentSource& source) {
     if (element.role == PlyRole::kFaces && info.simplex_count) *info.simplex_count += element.count;
     if (element.role == PlyRole::kStrips) info.simplex_count.reset();  // unknown: a strip has any number of triangles
   }
-  info.float32 = std::ranges::all_of(header.vertices().properties, [](const PlyProperty& property) {
-    return property.type == ScalarType::kFloat32 || byte_size(property.type) < 4;
-  });
+  info.float32 = std::ranges::all_of(header.vertices().properties,
+                                     [](const PlyProperty& property) { return fits_float32(property.type); });
   info.file_bytes = source.file_bytes();
   return info;
 }
@@ -168,6 +167,10 @@ class PlyReader final : public PlyBodyReader {
   std::vector<std::string> warnings() const override {
     std::vector<std::string> lines;
     if (non_finite_values_ != 0) lines.push_back(note_on_non_finite_values(non_finite_values_));
+    for (const PlyElement& element : header_.elements)
+      if (element.name == "edge" && element.count != 0)
+        lines.push_back(count_of(element.count, "edge") + (element.count == 1 ? " was" : " were") +
+                        " ignored: of PLY, vertices, faces and strips are read");
     if (header_.unknown_lines != 0)
       lines.push_back(count_of(header_.unknown_lines, "line") + " of the header " +
                       (header_.unknown_lines == 1 ? "is" : "are") + " not PLY and " +

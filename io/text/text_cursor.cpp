@@ -67,6 +67,28 @@ bool TextCursor::more() {
   return true;
 }
 
+bool TextCursor::skip_to_name() {
+  while (more()) {
+    if (is_letter(peek())) return true;
+    // Passes over words of the line, as long as no other one begins with a letter or a comment.
+    cursor_.ensure(kTokenBytes);
+    const std::string_view ahead(cursor_.data(), cursor_.available());
+    std::size_t end = 0, length = 0;  // of the words passed over; what was looked at
+    while (length < ahead.size() && ahead[length] != '\n') {
+      while (length < ahead.size() && !is_blank_or_line_end(ahead[length])) ++length;
+      if (length == ahead.size()) break;
+      while (length < ahead.size() && is_blank(ahead[length])) ++length;
+      end = length;
+      if (length < ahead.size() && (is_letter(ahead[length]) || ahead[length] == '#')) break;
+    }
+    if (end == 0)
+      (void)token();
+    else
+      cursor_.advance(end);
+  }
+  return false;
+}
+
 void TextCursor::fail_at_end(const char* what) {
   mark();
   fail(std::string("the file ends where a ") + what + " should be", kCutHint);

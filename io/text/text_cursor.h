@@ -30,6 +30,7 @@ extern template ParsedNumber<double> parse_number<double>(std::string_view);
 
 inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 inline bool is_blank_or_line_end(char c) { return c == '\n' || is_blank(c); }
+inline bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
 // Whether the token spells NaN or an infinity ("nan", "-inf", "Infinity", ...).
 bool spells_non_finite(std::string_view token);
@@ -70,6 +71,8 @@ class TextCursor {
   void require_room(std::uint64_t records, std::uint64_t numbers) const;
   // Moves past the end of this line and its continuations.
   void skip_line();
+  // Moves to the next word that begins with a letter, across line ends. False if there is none.
+  bool skip_to_name();
   // Reads a line of numbers at once: true if `read(PlainLine&)` returns true and nothing is left on the line. Else, or
   // if the line is longer than a token may be, does not move, and the caller reads the line word by word.
   template <class Read>

@@ -45,6 +45,7 @@ struct GridFile {
   std::string format;  // as MeshInfo
   std::vector<GridPiece> pieces;
   bool has_inner_nodes = false;    // there are higher-order cells
+  bool has_later_steps = false;    // there are arrays of other time steps than the first, which are left out
   std::uint64_t packed_bytes = 0;  // of the file, if its content was unpacked to another one; else 0
 };
 

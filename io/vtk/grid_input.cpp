@@ -22,8 +22,8 @@ MeshInfo describe(const ContentSource& content, const GridFile& file) {
   for (const GridPiece& piece : file.pieces) {
     *info.vertex_count += piece.points;
     for (const CellList& list : piece.cells) *info.simplex_count += list.count;
-    const ScalarType type = piece.coordinates.type;
-    info.float32 &= type == ScalarType::kFloat32 || byte_size(type) < 4;
+    info.float32 &= fits_float32(piece.coordinates.type);
+    for (const PlacedPointArray& array : piece.arrays) info.float32 &= fits_float32(array.place.type);
   }
   if (!file.pieces.empty()) {
     const auto& arrays = file.pieces.front().arrays;
@@ -120,6 +120,10 @@ class GridInput final : public CellInput {
     for (const auto& column : values_) bytes += column->memory_bytes();
     for (const auto* numbers : {&nodes_, &offsets_, &types_}) bytes += *numbers ? (*numbers)->memory_bytes() : 0;
     return bytes;
+  }
+  std::vector<std::string> warnings() const override {
+    if (!file_->has_later_steps) return {};
+    return {"the file has several time steps; only the first one was read"};
   }
 
  private:

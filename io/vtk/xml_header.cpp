@@ -43,6 +43,12 @@ bool is_section(std::string_view name) {
   return std::ranges::find(kSections, name) != std::end(kSections);
 }
 
+// A file can have several time steps. An array that changes is there once for each; the first step is 0.
+bool is_of_later_step(const XmlAttributes& attributes) {
+  const std::string step = attribute_of(attributes, "TimeStep");
+  return !step.empty() && step != "0";
+}
+
 class XmlIndexer final : private XmlParser::Handler {
  public:
   explicit XmlIndexer(const ContentSource& content) : source_(content.reopen()), xml_(*source_, *this) {}
@@ -173,10 +179,10 @@ class XmlIndexer final : private XmlParser::Handler {
   }
 
   // Where the numbers of an array are; if they are appended, until read() its offset counts from the first of these
-  // bytes. Nothing for an array of strings.
+  // bytes. Nothing for an array of strings or bits.
   std::optional<NumberPlace> place_of(const XmlAttributes& attributes) const {
     const std::string type = attribute_of(attributes, "type"), format = attribute_of(attributes, "format");
-    if (type == "String") return std::nullopt;
+    if (type == "String" || type == "Bit") return std::nullopt;
     const auto known = vtk_scalar_type(type);
     if (!known) refuse_attribute(xml_, "DataArray", "type", type);
     NumberPlace place;
@@ -202,6 +208,10 @@ class XmlIndexer final : private XmlParser::Handler {
     const bool points = section_ == "Points", values = section_ == "PointData";
     const auto list = list_of_section();
     if (!points && !values && !list) return;
+    if (is_of_later_step(attributes)) {
+      file_.has_later_steps = true;
+      return;
+    }
     const auto place = place_of(attributes);
     if (!place) return;
     const std::string name = attribute_of(attributes, "Name");

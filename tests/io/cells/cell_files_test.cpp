@@ -122,6 +122,38 @@ TEST(CellFiles, Medit) {
   EXPECT_EQ(plane.triangles, (std::vector<std::array<std::uint64_t, 3>>{{0, 3, 2}, {0, 2, 1}}));
 }
 
+TEST(CellFiles, SectionsOfMeditBeginAnywhere) {
+  const std::string lines = medit().substr(medit().find('\n') + 1);  // the first one is a comment
+  for (const char end : {' ', '\r'}) {
+    std::string text = lines;
+    std::ranges::replace(text, '\n', end);
+    EXPECT_EQ(read_mesh(write_file("line.mesh", text)), expected(false));
+  }
+  const std::string head = "MeshVersionFormatted 2\nDimension 3\nVertices 3 0 0 0 1 1 1e0 2E+1 1 # Edges 1\n 3 3 3 1";
+  for (std::string blanks : {std::string(" "), std::string(5000, ' '), std::string("\n\n")}) {
+    const Mesh mesh = read_mesh(write_file("middle.mesh", head + blanks + "Ridges 1 1 Triangles 1 3 1 2 0" + blanks));
+    EXPECT_EQ(mesh.vertices.size(), 3u);
+    EXPECT_TRUE(mesh.edges.empty());
+    EXPECT_EQ(mesh.triangles, (std::vector<std::array<std::uint64_t, 3>>{{2, 0, 1}}));
+  }
+}
+
+TEST(CellFiles, WhatIsLeftOutOfMeditIsNoted) {
+  const auto notes = [](const std::string& sections) {
+    const auto reader = open_mesh(
+        write_file("notes.mesh", "MeshVersionFormatted 2\nDimension 2\nVertices 3\n0 0 0\n1 0 0\n1 1 0\n" + sections));
+    read_all(*reader);
+    return reader->warnings();
+  };
+  using Notes = std::vector<std::string>;
+  EXPECT_EQ(notes("Corners 1\n1\nTriangles 1\n1 2 3 0\nEnd\n"), Notes());
+  EXPECT_EQ(notes("Triangel 1\n1 2 3 0\nEnd\n"),
+            Notes{"1 section with a name that is not known was ignored; the first is \"Triangel\""});
+  EXPECT_EQ(notes("Triangles 1\n1 2 3 0\n1 2 3 0\nEdges 0\nTri"),
+            (Notes{"1 section with a name that is not known was ignored; the first is \"Tri\"",
+                   "records after the announced number were ignored, in 1 section"}));
+}
+
 TEST(CellFiles, MeditOfHigherOrder) {
   const Mesh mesh =
       read_mesh(write_file("high.mesh",

@@ -285,6 +285,17 @@ TEST(Readers, SurplusValuesAtTheEndOfALineAreCounted) {
             std::vector<std::string>{"6 values at the end of lines were ignored: the header does not declare them"});
 }
 
+TEST(Readers, EdgesOfPlyAreNoted) {
+  std::string text = ascii_ply();
+  text.insert(text.find("end_header"), "element edge 2\nproperty int vertex1\nproperty int vertex2\n");
+  const std::string path = write_file("edges.ply", text + "0 1\n1 2\n");
+  EXPECT_EQ(read_mesh(path), kTetrahedron);
+  const auto reader = open_mesh(path);
+  read_all(*reader);
+  EXPECT_EQ(reader->warnings(),
+            std::vector<std::string>{"2 edges were ignored: of PLY, vertices, faces and strips are read"});
+}
+
 // These formats do not say how much is to come, so a cut file can look whole.
 TEST(Readers, AnItemOnALastLineWithoutAnEndIsNoted) {
   const std::vector<std::string> note = {"the last line has no line end; the file may be cut there"};
@@ -361,7 +372,7 @@ TEST(Ply, TypesOrderExtrasAndStrips) {
   const auto reader = open_mesh(path);
   EXPECT_EQ(reader->info().property_names, (std::vector<std::string>{"red", "quality"}));
   read_all(*reader);
-  EXPECT_EQ(reader->warnings().size(), 1u) << "the quality that is not finite, of vertices 1 and 3";
+  EXPECT_EQ(reader->warnings().size(), 2u) << "the quality that is not finite, of vertices 1 and 3; and edges";
 }
 
 TEST(Ply, FacesBeforeVertices) {

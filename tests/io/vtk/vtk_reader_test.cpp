@@ -208,6 +208,48 @@ TEST(VtkReader, PiecesFollowEachOther) {
   EXPECT_EQ(mesh.triangles, (std::vector<std::array<std::uint64_t, 3>>{{0, 1, 2}, {3, 4, 5}}));
 }
 
+// An array that changes is there once for each step. Arrays of bits hold no property.
+TEST(VtkReader, OfSeveralTimeStepsTheFirstIsRead) {
+  for (const auto coding : {XmlStyle::Coding::kText, XmlStyle::Coding::kAppendedBase64}) {
+    XmlStyle style;
+    style.coding = coding;
+    XmlWriter writer(style);
+    const auto steps = [&](const std::string& type, const std::string& name, int components,
+                           const std::vector<std::vector<double>>& of_step) {
+      std::string arrays;
+      for (std::size_t step = 0; step < of_step.size(); ++step)
+        arrays += writer.array(type, name + "\" TimeStep=\"" + std::to_string(step), of_step[step], components);
+      return arrays;
+    };
+    const std::string piece =
+        "<Piece NumberOfPoints=\"3\" NumberOfCells=\"1\"><PointData>" + writer.array("Bit", "b", {1}) +
+        steps("Float64", "f", 1, {{1, 2, 3}, {4, 5, 6}}) + "</PointData><Points>" +
+        steps("Float64", "Points", 3, {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {9, 9, 9, 8, 9, 9, 9, 8, 9}}) + "</Points><Cells>" +
+        steps("Int32", "connectivity", 1, {{0, 1, 2}, {2, 1, 0}}) + writer.array("Int32", "offsets", {3}) +
+        writer.array("UInt8", "types", {5}) + "</Cells></Piece>";
+    const std::string path = write_file("steps.vtu", writer.file("UnstructuredGrid", piece));
+    const Mesh mesh = read_mesh(path, {"f"});
+    EXPECT_EQ(mesh.vertices, (std::vector<std::vector<double>>{{0, 0, 0, 1}, {1, 0, 0, 2}, {0, 1, 0, 3}}));
+    EXPECT_EQ(mesh.triangles, (std::vector<std::array<std::uint64_t, 3>>{{0, 1, 2}}));
+    const auto reader = open_mesh(path);
+    EXPECT_EQ(reader->info().property_names, std::vector<std::string>{"f"});
+    EXPECT_EQ(reader->warnings(),
+              std::vector<std::string>{"the file has several time steps; only the first one was read"});
+  }
+}
+
+TEST(VtkReader, NumbersAreFloat32OnlyIfThoseOfPropertiesAre) {
+  for (const auto& [type, is_float32] :
+       {std::pair("Float32", true), {"UInt8", true}, {"Float64", false}, {"Int32", false}}) {
+    XmlWriter writer({});
+    const std::string piece = "<Piece NumberOfPoints=\"1\" NumberOfCells=\"0\"><PointData>" +
+                              writer.array(type, "f", {1}) + "</PointData><Points>" +
+                              writer.array("Float32", "Points", {0, 0, 0}, 3) + "</Points></Piece>";
+    EXPECT_EQ(open_mesh(write_file("types.vtu", writer.file("UnstructuredGrid", piece)))->info().float32, is_float32)
+        << type;
+  }
+}
+
 // VTK writes such elements into arrays of newer files.
 TEST(VtkReader, ElementsInAnArrayArePassedOver) {
   const std::string key =
