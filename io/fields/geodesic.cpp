@@ -187,6 +187,7 @@ std::vector<double> geodesic_distance(const WholeComplex& complex, std::span<con
                 across(distance[first], distance[second], crossing.between, crossing.to_first, crossing.to_second));
     }
   }
+  for (double& value : distance) value = std::ldexp(value, complex.unit_exponent);
   return distance;
 }
 

@@ -5,7 +5,9 @@
 #include <Eigen/Sparse>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -25,6 +27,8 @@ constexpr Index kDense = 128;
 // A cotangent beyond this is of a triangle that is nearly a line.
 constexpr double kLargestCotangent = 1e6;
 constexpr double kTolerance = 1e-11;
+// What solves the equation worse than this is no eigenvector.
+constexpr double kLargestResidual = 0.1;
 // Eigenvalues that differ by less may be the same one.
 constexpr double kSame = 1e-6;
 
@@ -47,8 +51,9 @@ Part largest_component(const WholeComplex& complex) {
 }
 
 struct Weights {
-  Matrix laplacian;  // the lower triangle
-  Vector masses;
+  Matrix laplacian;       // the lower triangle
+  Vector masses;          // in units of areas
+  int unit_exponent = 0;  // of lengths, if there are any
 };
 
 void add_edge(std::uint32_t a, std::uint32_t b, double weight, std::vector<Eigen::Triplet<double, Index>>& entries) {
@@ -66,29 +71,78 @@ double area_of(double a, double b, double c) {
   return std::sqrt(std::max(0.0, product)) / 4;
 }
 
+// The cotangents of a triangle that is nearly a line all become smaller by the same factor: the form of the triangle
+// stays positive.
 void add_triangle(const WholeComplex& complex, const std::array<std::uint32_t, 3>& corners, const Part& part,
                   std::vector<Eigen::Triplet<double, Index>>& entries, Vector& masses) {
   std::array<double, 3> length{};  // opposite to the corner
   for (std::size_t i = 0; i < 3; ++i) length[i] = complex.length(corners[(i + 1) % 3], corners[(i + 2) % 3]);
   const double area = area_of(length[0], length[1], length[2]);
+  std::array<double, 3> product{};  // of the edges at the corner, four times
+  double divisor = 4 * area;
   for (std::size_t i = 0; i < 3; ++i) {
     const double a = length[i], b = length[(i + 1) % 3], c = length[(i + 2) % 3];
-    const double cotangent = (b * b + c * c - a * a) / (4 * std::max(area, std::numeric_limits<double>::min()));
+    product[i] = b * b + c * c - a * a;
+    divisor = std::max(divisor, std::abs(product[i]) / kLargestCotangent);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
     const std::uint32_t p = part.number[corners[(i + 1) % 3]], q = part.number[corners[(i + 2) % 3]];
-    add_edge(p, q, std::clamp(cotangent, -kLargestCotangent, kLargestCotangent) / 2, entries);
+    if (divisor > 0) add_edge(p, q, product[i] / divisor / 2, entries);
     masses[part.number[corners[i]]] += area / 3;
   }
+}
+
+template <std::size_t N>
+using Simplices = std::vector<std::array<std::uint32_t, N>>;
+
+// Each simplex of the part once, with ascending corners.
+template <std::size_t N>
+void add_sorted(const Simplices<N>& from, const Part& part, Simplices<N>& to) {
+  for (auto corners : from) {
+    if (part.number[corners[0]] == kNone) continue;
+    std::ranges::sort(corners);
+    to.push_back(corners);
+  }
+}
+template <std::size_t N>
+void make_unique(Simplices<N>& simplices) {
+  std::ranges::sort(simplices);
+  simplices.erase(std::unique(simplices.begin(), simplices.end()), simplices.end());
+}
+
+struct PartSimplices {
+  Simplices<3> triangles;
+  Simplices<2> edges;  // of surfaces: those of no triangle
+};
+
+// Repeated simplices count once. An edge that a triangle has, as of a triangle with a repeated corner, adds nothing.
+PartSimplices simplices_of(const WholeComplex& complex, const Part& part) {
+  PartSimplices result;
+  result.triangles.reserve(complex.triangles.size());
+  add_sorted(complex.triangles, part, result.triangles);
+  make_unique(result.triangles);
+  if (complex.edges.empty()) return result;
+  Simplices<2> own, of_triangles;
+  own.reserve(complex.edges.size());
+  add_sorted(complex.edges, part, own);
+  make_unique(own);
+  of_triangles.reserve(3 * result.triangles.size());
+  for (const auto& t : result.triangles)
+    for (const auto& edge : {std::array{t[0], t[1]}, {t[1], t[2]}, {t[0], t[2]}}) of_triangles.push_back(edge);
+  make_unique(of_triangles);
+  std::ranges::set_difference(own, of_triangles, std::back_inserter(result.edges));
+  return result;
 }
 
 Weights weights_of(const WholeComplex& complex, const Part& part) {
   Weights weights;
   weights.masses = Vector::Zero(part.vertices);
   std::vector<Eigen::Triplet<double, Index>> entries;
-  const bool surface = complex.is_surface && complex.edges.empty();
-  entries.reserve(surface ? 9 * complex.triangles.size() : 3 * (complex.edges.size() + 3 * complex.triangles.size()));
-  if (surface) {
-    for (const auto& corners : complex.triangles)
-      if (part.number[corners[0]] != kNone) add_triangle(complex, corners, part, entries, weights.masses);
+  auto [triangles, edges] = simplices_of(complex, part);
+  if (!complex.has_cells && edges.empty()) {
+    weights.unit_exponent = complex.unit_exponent;
+    entries.reserve(9 * triangles.size());
+    for (const auto& corners : triangles) add_triangle(complex, corners, part, entries, weights.masses);
     if (!(weights.masses.minCoeff() > 0)) {
       const double mean = weights.masses.mean();
       if (!(mean > 0))
@@ -98,16 +152,10 @@ Weights weights_of(const WholeComplex& complex, const Part& part) {
       weights.masses = weights.masses.cwiseMax(1e-9 * mean);
     }
   } else {
-    // Each edge counts once.
-    std::vector<std::array<std::uint32_t, 2>> edges;
-    edges.reserve(complex.edges.size() + 3 * complex.triangles.size());
-    const auto add = [&](std::uint32_t a, std::uint32_t b) {
-      if (part.number[a] != kNone) edges.push_back({std::min(a, b), std::max(a, b)});
-    };
-    for (const auto& e : complex.edges) add(e[0], e[1]);
-    for (const auto& t : complex.triangles) add(t[0], t[1]), add(t[1], t[2]), add(t[2], t[0]);
-    std::ranges::sort(edges);
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    for (const auto& t : triangles)
+      for (const auto& edge : {std::array{t[0], t[1]}, {t[1], t[2]}, {t[0], t[2]}}) edges.push_back(edge);
+    make_unique(edges);
+    entries.reserve(3 * edges.size());
     for (const auto& e : edges) add_edge(part.number[e[0]], part.number[e[1]], 1, entries);
     weights.masses.setOnes();
   }
@@ -167,6 +215,11 @@ Pairs sorted(const Pairs& pairs) {
   return result;
 }
 
+[[noreturn]] void throw_no_convergence() {
+  throw Error(ErrorKind::kBadInput, "the eigenvectors of the Laplacian do not converge",
+              "the mesh may have triangles that are nearly lines; choose another function");
+}
+
 // The least `wanted` eigenpairs on the complement of `known`, by one run of Lanczos. It may miss copies of multiple
 // ones.
 Pairs lanczos(const Factors& factors, double shift, Index size, Index wanted, const Vectors& known) {
@@ -175,9 +228,7 @@ Pairs lanczos(const Factors& factors, double shift, Index size, Index wanted, co
   Spectra::SymEigsShiftSolver<Inverse> solver(inverse, wanted, basis, shift);
   solver.init();
   solver.compute(Spectra::SortRule::LargestMagn, 1000, kTolerance, Spectra::SortRule::SmallestAlge);
-  if (solver.info() != Spectra::CompInfo::Successful)
-    throw Error(ErrorKind::kBadInput, "the eigenvectors of the Laplacian do not converge",
-                "the mesh may have triangles that are nearly lines; choose another function");
+  if (solver.info() != Spectra::CompInfo::Successful) throw_no_convergence();
   return sorted({solver.eigenvectors(), solver.eigenvalues()});
 }
 
@@ -234,10 +285,11 @@ Eigenvector laplacian_eigenvector(const WholeComplex& complex, std::uint64_t k, 
                 "the largest component has " + count_of(static_cast<std::uint64_t>(part.vertices), "vertex") +
                     ", so there is no laplacian:" + std::to_string(k),
                 "choose a K from 1 that is less than this number");
-  // Triplets, and the matrix twice.
-  memory.resize(memory.bytes() + 24 * 9 * simplices + 80 * std::uint64_t{complex.vertex_count()} + 64 * simplices);
+  // Triplets and sorted triangles, and the matrix twice.
+  const std::uint64_t building = (24 * 9 + 12) * simplices;
+  memory.resize(memory.bytes() + building + 80 * std::uint64_t{complex.vertex_count()} + 64 * simplices);
   Weights weights = weights_of(complex, part);
-  memory.resize(memory.bytes() - 24 * 9 * simplices);
+  memory.resize(memory.bytes() - building);
 
   // L u = e M u becomes M^-1/2 L M^-1/2 v = e v, with v = M^1/2 u.
   const Vector scale = weights.masses.cwiseSqrt().cwiseInverse();
@@ -256,7 +308,10 @@ Eigenvector laplacian_eigenvector(const WholeComplex& complex, std::uint64_t k, 
   result.eigenvalue = pairs.eigenvalues[static_cast<Index>(k)];
   const Vector image = matrix.selfadjointView<Eigen::Lower>() * v;
   result.residual = (image - result.eigenvalue * v).norm() / std::abs(result.eigenvalue);
+  if (!(result.residual < kLargestResidual)) throw_no_convergence();
+  result.eigenvalue = std::ldexp(result.eigenvalue, -2 * weights.unit_exponent);
   Vector u = v.cwiseProduct(scale);
+  for (double& x : u) x = std::ldexp(x, -weights.unit_exponent);
   Index place = 0;
   u.cwiseAbs().maxCoeff(&place);
   if (u[place] < 0) u = -u;

@@ -17,17 +17,19 @@ struct Eigenvector {
 
 // The K-th eigenvector (from 1) that is not constant, of the component with most vertices (of several the first), in
 // the order of eigenvalues. On surfaces L has cotangent weights, and M is a third of the area of the triangles at a
-// vertex; on other complexes L is the Laplacian of the graph of edges, and M the identity. The vector has the length 1
-// in the norm of M, and its entry of largest magnitude is positive. Of eigenvalues that are equal (a sphere has three
-// times the first), each combination is as good.
+// vertex; on other complexes L is the Laplacian of the graph of edges, and M the identity. Repeated simplices, and
+// edges that triangles have, change nothing. The vector has the length 1 in the norm of M, and its entry of largest
+// magnitude is positive. Of eigenvalues that are equal (a sphere has three times the first), each combination is as
+// good.
 //
 // Shift and invert: Spectra's Lanczos method on the inverse of L + epsilon M, factorized by Eigen. What Lanczos may
 // miss of multiple eigenvalues is found by runs on the complement of what is known.
 //
 // If K is near half of the vertices or above, or there are few vertices, Eigen's dense method finds all eigenvectors.
 //
-// THROWS: Error{kBadInput} if the component has K or fewer vertices, or if its triangles have no area; Error{kResource}
-//         with the memory that the method needs, before it is begun.
+// THROWS: Error{kBadInput} if the component has K or fewer vertices, if its triangles have no area, or if the method
+// does
+//         not converge; Error{kResource} with the memory that it needs, before it is begun.
 // TIME, MEMORY: those of a sparse Cholesky factorization: some 25 s and 1.6 GB for a surface of a million vertices. Of
 //         the dense method: the cube of the vertices, and 16 bytes times their square.
 Eigenvector laplacian_eigenvector(const WholeComplex& complex, std::uint64_t k, MemoryBudget& budget);

@@ -55,6 +55,7 @@ void append(const MeshBatch& batch, WholeComplex& complex, Growth& growth) {
   const auto append_simplices = [&](std::span<const VertexId> corners, std::size_t k) {
     const std::size_t count = corners.size() / (k + 1);
     if (count != 0 && k != 2) complex.is_surface = false;
+    if (count != 0 && k > 2) complex.has_cells = true;
     if (k == 2)
       growth.make_room(complex.triangles, count);
     else
@@ -89,6 +90,21 @@ double WholeComplex::length(std::uint32_t a, std::uint32_t b) const {
   return std::sqrt(sum);
 }
 
+void use_unit_of_edges(WholeComplex& complex) {
+  double longest = 0;  // half of a step of a coordinate, which is always finite
+  const auto look = [&](std::uint32_t a, std::uint32_t b) {
+    for (unsigned k = 0; k < complex.dimension; ++k)
+      longest = std::max(longest, std::abs(complex.coordinates[std::size_t{a} * complex.dimension + k] / 2 -
+                                           complex.coordinates[std::size_t{b} * complex.dimension + k] / 2));
+  };
+  for (const auto& t : complex.triangles) look(t[0], t[1]), look(t[1], t[2]), look(t[2], t[0]);
+  for (const auto& e : complex.edges) look(e[0], e[1]);
+  if (longest == 0) return;
+  const int exponent = std::ilogb(longest) + 1;
+  for (double& x : complex.coordinates) x = std::ldexp(x, -exponent);
+  complex.unit_exponent += exponent;
+}
+
 void require_numbers(std::uint64_t count, const char* items) {
   if (count < std::numeric_limits<std::uint32_t>::max()) return;
   throw Error(ErrorKind::kResource,
@@ -109,6 +125,7 @@ WholeComplex read_whole(MeshReader& reader, MemoryBudget& budget) {
     require_numbers(complex.edges.size(), "edges");
   }
   complex.number_count = reader.info().number_count.value_or(complex.vertex_count());
+  use_unit_of_edges(complex);
   return complex;
 }
 

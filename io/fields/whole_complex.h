@@ -15,10 +15,12 @@ namespace reeb::io {
 // Only lengths of edges and what is adjacent matter here, so positions may have any dimension.
 struct WholeComplex {
   unsigned dimension = 3;
+  int unit_exponent = 0;                                // coordinates are in units of 2 to this power
   std::vector<double> coordinates;                      // `dimension` of each vertex
   std::vector<std::array<std::uint32_t, 3>> triangles;  // three different corners each
   std::vector<std::array<std::uint32_t, 2>> edges;      // of all other simplices, each perhaps more than once
   bool is_surface = true;                               // no simplex but triangles
+  bool has_cells = false;                               // a simplex of more than three corners
   VertexNumbering numbers;                              // in the mesh
   std::uint64_t number_count = 0;                       // of vertices in the mesh, also of those that it leaves out
   Reservation memory;
@@ -27,8 +29,13 @@ struct WholeComplex {
   double length(std::uint32_t a, std::uint32_t b) const;
 };
 
-// Reads all of the mesh. MEMORY: 8 bytes a coordinate, 12 a triangle, 8 an edge; reserved before it is held.
-// THROWS: Error{kBadInput} of the reader; Error{kResource} if the budget does not allow it, or as require_numbers().
+// Chooses a unit about as long as the longest edge, so that products of lengths neither overflow nor vanish.
+// Coordinates change by a power of two, and lose nothing.
+void use_unit_of_edges(WholeComplex& complex);
+
+// Reads all of the mesh, and chooses that unit. MEMORY: 8 bytes a coordinate, 12 a triangle, 8 an edge; reserved before
+// it is held. THROWS: Error{kBadInput} of the reader; Error{kResource} if the budget does not allow it, or as
+// require_numbers().
 WholeComplex read_whole(MeshReader& reader, MemoryBudget& budget);
 
 // THROWS: Error{kResource} if there are 2^32 - 1 or more of these items.

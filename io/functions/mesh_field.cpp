@@ -56,13 +56,6 @@ std::vector<double> geodesic_values(const FunctionSpec& spec, const WholeComplex
     if (!index) fail_vertex(spec.text, vertex, complex, mesh_name);
     sources.push_back(static_cast<std::uint32_t>(*index));
   }
-  // Squares of distances must be finite.
-  constexpr double kMostCoordinate = 1e150;
-  if (std::ranges::any_of(complex.coordinates, [](double x) { return std::abs(x) > kMostCoordinate; }))
-    throw Error(ErrorKind::kBadInput,
-                spec.text + " needs squares of distances, which are beyond the range of double in this mesh",
-                "scale the mesh so that coordinates are at most 1e150, or choose another function")
-        .at(mesh_name);
   std::vector<double> values = geodesic_distance(complex, sources, budget);
   const auto unreached = std::ranges::find_if(values, [](double value) { return std::isinf(value); });
   if (unreached != values.end()) {

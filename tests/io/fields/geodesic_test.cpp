@@ -77,6 +77,17 @@ TEST(Geodesic, InAPlaneIsTheDistanceOfPoints) {
   }
 }
 
+TEST(Geodesic, IsTheSameAtEveryScale) {
+  const auto expected = distance(testing::random_plane(20, 3), {7});
+  for (const int exponent : {-1000, -600, -520, -1, 10, 520, 1000}) {
+    WholeComplex plane = testing::random_plane(20, 3);
+    for (double& x : plane.coordinates) x = std::ldexp(x, exponent);
+    use_unit_of_edges(plane);
+    const auto d = distance(plane, {7});
+    for (std::size_t v = 0; v < d.size(); ++v) ASSERT_EQ(d[v], std::ldexp(expected[v], exponent)) << exponent;
+  }
+}
+
 // Triangles that are not obtuse.
 TEST(Geodesic, InARegularPlaneIsExact) {
   WholeComplex plane;

@@ -110,6 +110,78 @@ TEST(Laplacian, OtherComponentsAreZeroAndCounted) {
   EXPECT_NE(u.values[0], 0);
 }
 
+TEST(Laplacian, IsTheSameAtEveryScale) {
+  // Solved densely, and by Lanczos.
+  for (const unsigned levels : {1u, 3u}) {
+    const auto expected = eigenvector(testing::sphere(levels), 4);
+    for (const double scale : {1e-150, 1e-90, 1e-8, 1e-3, 1e8, 1e90, 1e150}) {
+      WholeComplex sphere = testing::sphere(levels);
+      for (double& x : sphere.coordinates) x *= scale;
+      use_unit_of_edges(sphere);
+      const auto u = eigenvector(sphere, 4);
+      EXPECT_NEAR(u.eigenvalue * scale * scale / expected.eigenvalue, 1, 1e-6) << scale;
+      EXPECT_LT(u.residual, 1e-6) << scale;
+    }
+  }
+}
+
+// A square of 12 cells a side, and a vertex in the middle of one edge, which only one of its triangles has. `closed`: a
+// triangle without area closes the gap.
+WholeComplex plane_with_junction(bool closed) {
+  constexpr std::uint32_t kCells = 12;
+  WholeComplex plane;
+  for (std::uint32_t y = 0; y <= kCells; ++y)
+    for (std::uint32_t x = 0; x <= kCells; ++x)
+      plane.coordinates.insert(plane.coordinates.end(), {1.5 * x, 1.0 * y, 0});
+  const auto middle = plane.vertex_count();
+  plane.coordinates.insert(plane.coordinates.end(), {1.5 * 5.5, 4, 0});
+  for (std::uint32_t y = 0; y < kCells; ++y)
+    for (std::uint32_t x = 0; x < kCells; ++x) {
+      const std::uint32_t a = y * (kCells + 1) + x, b = a + 1, c = a + kCells + 1, d = c + 1;
+      plane.triangles.push_back({a, d, c});
+      if (x == 5 && y == 4) {
+        plane.triangles.insert(plane.triangles.end(), {{a, middle, d}, {middle, b, d}});
+        if (closed) plane.triangles.push_back({a, b, middle});
+      } else {
+        plane.triangles.push_back({a, b, d});
+      }
+    }
+  return plane;
+}
+
+// The square has the eigenvalues of cosines; a gap that is not closed lowers them.
+TEST(Laplacian, ATriangleWithoutAreaJoinsItsNeighbours) {
+  const double exact = std::pow(std::numbers::pi / (1.5 * 12), 2);
+  for (const double lift : {0.0, 1e-9, 1e-6, 1e-3}) {
+    WholeComplex plane = plane_with_junction(true);
+    plane.coordinates[plane.coordinates.size() - 2] += lift;
+    const auto u = eigenvector(plane, 1);
+    EXPECT_NEAR(u.eigenvalue, exact, 0.01 * exact) << lift;
+    EXPECT_LT(u.residual, 1e-6) << lift;
+  }
+}
+
+TEST(Laplacian, RepeatedSimplicesChangeNothing) {
+  const auto expected = eigenvector(testing::random_plane(14, 1), 3);
+  WholeComplex plane = testing::random_plane(14, 1);
+  const auto [a, b, c] = plane.triangles[7];
+  plane.triangles.push_back({c, a, b});
+  plane.triangles.push_back({b, a, c});
+  plane.edges = {{b, c}, {c, b}, {a, b}};
+  // Another component, of an edge.
+  const std::uint32_t more = plane.vertex_count();
+  plane.coordinates.insert(plane.coordinates.end(), {0, 0, 1, 0, 0, 2});
+  plane.edges.push_back({more, more + 1});
+  plane.is_surface = false;
+  auto u = eigenvector(plane, 3);
+  u.values.resize(more);
+  EXPECT_EQ(u.values, expected.values);
+  EXPECT_EQ(u.eigenvalue, expected.eigenvalue);
+  // An edge that no triangle has makes it a graph.
+  plane.edges.push_back({0, 14});
+  EXPECT_NE(eigenvector(plane, 3).eigenvalue, expected.eigenvalue);
+}
+
 TEST(Laplacian, RefusesWhatIsNotThere) {
   MemoryBudget budget;
   EXPECT_THROW(laplacian_eigenvector(path(5), 5, budget), Error);
