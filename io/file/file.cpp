@@ -177,10 +177,14 @@ void File::start_sync(std::uint64_t offset, std::uint64_t bytes) const noexcept 
 
 void File::fail(const char* doing, int error, std::uint64_t offset, std::size_t bytes) const {
   if (use_ == Use::kOutput) throw_output_error(error == 0 ? EIO : error, path_, std::to_string(offset));
-  if (use_ == Use::kInput)
-    throw Error(ErrorKind::kBadInput, error == 0 ? "the file ends here" : std::strerror(error),
-                "the file was cut or cannot be read; make it again")
+  if (use_ == Use::kInput && error == 0)
+    throw Error(ErrorKind::kBadInput, "the file ends here", "the file was cut; make it again")
         .at(path_, std::to_string(offset));
+  if (use_ == Use::kInput)
+    throw Error(ErrorKind::kBadInput, std::string("cannot be read: ") + std::strerror(error),
+                "check the disk, or the connection to it")
+        .at(path_, std::to_string(offset))
+        .because(ErrorCause::kUnreadable);
   std::string what = std::string("cannot ") + doing + " " + format_bytes(bytes) + ": ";
   what += error == 0 ? "the file ends before" : std::strerror(error);
   const std::string room = bytes == 0 ? "make room" : "free at least " + format_bytes(bytes) + ", better more,";
@@ -192,6 +196,7 @@ void File::fail(const char* doing, int error, std::uint64_t offset, std::size_t 
 std::string hint_for(int error, const std::string& otherwise) {
   if (error == EMFILE || error == ENFILE) return "allow more open files (ulimit -n), or close other programs";
   if (is_limit(error)) return "allow more memory (ulimit -v), or close other programs";
+  if (error == EPIPE) return "the program that reads it has ended";
   if (error == EFBIG) return "allow larger files (ulimit -f), or write to another file system";
   return is_full(error) ? "make room on the disk, or write to another folder" : otherwise;
 }

@@ -25,6 +25,7 @@ enum class ErrorCause : std::uint8_t {
   kExists,       // an output exists, and may not be replaced
   kMissing,      // an input does not exist
   kChanged,      // what was read of an input does not fit together: it changed while it was read
+  kUnreadable,   // an input that was open could not be read on: the disk or the connection failed
   kNotManifold,  // a surface that was said to be a manifold is none
 };
 

@@ -120,7 +120,9 @@ void LiveSurface::add_edge(Slot a, Slot b) {
 void LiveSurface::hold_triangle(Slot a, Slot b, Slot c) {
   constexpr std::uint32_t kMostTriangles = 1u << 30;
   const std::uint32_t t = triangles_.take();
-  if (t >= kMostTriangles) throw Error(ErrorKind::kResource, "too many triangles are unfinished at once", "");
+  if (t >= kMostTriangles)
+    throw Error(ErrorKind::kResource, "more than 2^30 triangles are unfinished at once",
+                "put the mesh in another order first: reeb convert MESH OUT.smb --order hilbert");
   Triangle& triangle = triangles_[t];
   triangle = {.corners = {a, b, c}, .next = {kNone, kNone, kNone}, .side = kNone, .unfinished = 0, .flipped = false};
   const auto corners = static_cast<std::uint8_t>(triangle.corner_count());

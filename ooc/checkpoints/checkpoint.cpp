@@ -123,7 +123,7 @@ CheckpointLoad load_checkpoint(const std::string& path, const RunIdentity& run) 
     if (header.functions != run.functions) return of_another("is of other functions");
     if (header.settings != run.settings) return of_another("is of other options");
     if (header.changed != run.changed)
-      throw input_changed("the mesh has changed since the interrupted run",
+      throw input_changed("an input may have changed since the interrupted run: its time of change is another",
                           "start again with --force and without --resume");
     if (header.origin > static_cast<std::uint64_t>(ChunkOrigin::kMaskedGrid)) return useless("is damaged");
     Checkpoint checkpoint{

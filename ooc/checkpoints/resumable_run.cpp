@@ -53,7 +53,8 @@ const Checkpoint* ResumableRun::start(const std::function<void(StateReader&)>& r
                                       std::vector<std::string>& notes) {
   last_ = Clock::now();
   if (options_.resume && !folder_)
-    notes.push_back("the input is not a regular file, so the run cannot be resumed and starts from the beginning");
+    notes.push_back(
+        "a run that reads no regular file or writes snapshots cannot be resumed; it starts from the beginning");
   if (!folder_) return nullptr;
   if (options_.resume) {
     is_of_earlier_run_ = folder_->has_checkpoint();
@@ -130,11 +131,12 @@ Error ResumableRun::explain(const Error& error) {
     if (const auto at = hint.find(kElsewhere); at != hint.npos) hint.replace(at, kElsewhere.size(), kOutput);
     kind = ErrorKind::kResource;
   }
-  if (kind == ErrorKind::kBadInput) {
-    // The mesh can be brought back. Otherwise running again would fail in the same way.
-    const bool keeps = is_of_earlier_run_ && error.cause() == ErrorCause::kChanged;
-    if (!keeps) folder_->clear();
-  } else if (folder_->has_checkpoint()) {
+  // The mesh can be brought back, and a disk may work again. Otherwise running again would fail in the same way.
+  const bool keeps =
+      error.cause() == ErrorCause::kUnreadable || (is_of_earlier_run_ && error.cause() == ErrorCause::kChanged);
+  if (kind == ErrorKind::kBadInput && !keeps) {
+    folder_->clear();
+  } else if (error.cause() != ErrorCause::kChanged && folder_->has_checkpoint()) {
     const std::string go_on = "the same command with --resume continues the run";
     hint = kind == ErrorKind::kInterrupted ? go_on : hint + "; then " + go_on;
   } else if (kind == ErrorKind::kInterrupted) {

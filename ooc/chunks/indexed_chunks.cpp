@@ -96,13 +96,14 @@ bool IndexedChunks::read_some(std::size_t most) {
   return true;
 }
 
-// A small batch at a time, so that corners are numbered while they are in the first-level cache.
+// A small batch at a time, so that corners are numbered while they are in the first-level cache. Beyond the usual size
+// of a chunk, room is made for triangles that were read only: a table of last uses can promise more than there are.
 bool IndexedChunks::read_triangles(Chunk& chunk) {
-  constexpr std::size_t kTrianglesInCache = 1024;
+  constexpr std::size_t kTrianglesInCache = 1024, kUsual = ChunkSize{}.most;
   const std::uint64_t left = last_use_.summary().triangle_count - triangles_read_;
   const auto most = static_cast<std::size_t>(std::min<std::uint64_t>(blocks_.size() * block_triangles_, left));
-  numbers_.start(chunk.ids, most);
-  chunk.corners.resize(3 * most);
+  numbers_.start(chunk.ids, std::min(most, kUsual));
+  chunk.corners.resize(3 * std::min(most, kUsual));
   std::size_t count = 0, end_of_block = 0, blocks = 0;
   while (count < most && (count < end_of_block || chunk.vertex_count() <= most_vertices_)) {
     if (count == end_of_block) {
@@ -110,6 +111,8 @@ bool IndexedChunks::read_triangles(Chunk& chunk) {
       ++blocks;
     }
     if (!read_some(std::min(kTrianglesInCache, end_of_block - count))) break;
+    const std::size_t needed = 3 * count + corners_.size();
+    if (chunk.corners.size() < needed) chunk.corners.resize(std::min(3 * most, 2 * needed));
     numbers_.number(corners_, std::span(chunk.corners).subspan(3 * count, corners_.size()));
     count += corners_.size() / 3;
   }

@@ -130,7 +130,7 @@ class Scan {
       std::uint32_t& entry = table_.change(v.value());
       const UseEntry before(entry);
       if (before.last_block() == block) continue;
-      entry = next_use(before, block).packed();
+      entry = before.used_by(block).packed();
       if (before.unused())
         ++introduced;
       else
@@ -138,12 +138,6 @@ class Scan {
     }
     live_change_.back() += introduced;
     introduced_ += static_cast<std::uint64_t>(introduced);
-  }
-
-  static UseEntry next_use(UseEntry before, std::uint32_t block) {
-    if (before.unused()) return {block, 0};
-    if (before.span() == UseEntry::kSaturatedSpan) return {block, UseEntry::kSaturatedSpan};
-    return {block, block - (before.last_block() - before.span())};
   }
 
   // Joins blocks in pairs. A saturated span stays saturated.

@@ -37,6 +37,13 @@ class UseEntry {
   std::uint32_t span() const { return packed_ & kSaturatedSpan; }
   std::uint32_t packed() const { return packed_; }
 
+  // The entry once this block uses the vertex, too. REQUIRES: no later one did.
+  UseEntry used_by(std::uint32_t block) const {
+    if (unused()) return {block, 0};
+    if (span() == kSaturatedSpan) return {block, kSaturatedSpan};
+    return {block, block - (last_block() - span())};
+  }
+
  private:
   std::uint32_t packed_;
 };

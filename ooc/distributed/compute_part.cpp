@@ -1,7 +1,6 @@
 #include "ooc/distributed/compute_part.h"
 
 #include <array>
-#include <functional>
 
 #include "io/file/atomic_file.h"
 #include "io/file/checksum.h"
@@ -20,22 +19,18 @@ std::uint64_t reading_of_share(std::uint64_t reading, const PartChoice& choice) 
   return io::checksum(std::as_bytes(std::span(numbers)));
 }
 
+// Whatever goes wrong with an input that changes is due to the change.
 template <class Work>
-auto with_explained_errors(RunContext& run, const std::string& mesh, const std::function<void()>& check_unchanged,
-                           const Work& work) {
-  const auto check = [&] {
-    if (check_unchanged) check_unchanged();
-    for (const VertexFunction* function : run.functions) function->check_unchanged();
-  };
+auto with_explained_errors(RunContext& run, const std::string& mesh, const Work& work) {
   try {
     try {
-      auto result = work();
-      check();
-      return result;
+      return work();
     } catch (Error& error) {
-      if (error.cause() != ErrorCause::kChanged) throw;
-      check();
-      error.at(mesh);
+      run.check_inputs();
+      if (error.cause() == ErrorCause::kChanged) error.at(mesh);
+      throw;
+    } catch (const std::exception&) {
+      run.check_inputs();
       throw;
     }
   } catch (...) {
@@ -72,12 +67,10 @@ std::vector<FragmentResult> compute_part(MeshInput input, std::span<VertexFuncti
   RunContext run(input, functions, outputs, run_options);
   input.reading = reading;
   const std::string path = input.path;
-  const auto check_unchanged = input.check_unchanged;
-  return with_explained_errors(run, path, check_unchanged, [&] {
+  return with_explained_errors(run, path, [&] {
     WholeMesh mesh = open_whole_mesh(run, input, choice.parts);
     PartUses uses = choice.shared.empty() ? find_part_uses(run, input, mesh) : read_names(choice.shared, run, mesh);
     PartResult done = run_part(run, input, mesh, uses, choice.part, options);
-    if (check_unchanged) check_unchanged();
     std::vector<FragmentResult> results;
     for (std::size_t f = 0; f < functions.size(); ++f) {
       const auto& [info, open, memory] = done.parts[f];
@@ -96,7 +89,7 @@ std::uint64_t scan_part(MeshInput input, std::span<VertexFunction* const> functi
   input.may_resume = false;
   const ComputeOptions run_options = options_of_share(options);
   RunContext run(input, functions, std::span(&output, 1), run_options);
-  return with_explained_errors(run, path, input.check_unchanged, [&] {
+  return with_explained_errors(run, path, [&] {
     io::remove_abandoned(output);
     WholeMesh mesh = open_whole_mesh(run, input, choice.parts);
     return write_names_of(mesh, output, run, choice.part, path);

@@ -94,7 +94,7 @@ void merge_names(const io::File& file, const NamesHeader& header, PagedTable<std
         fail(file, "this file of names is damaged", sizeof(header));
       for (std::uint64_t v = run.first; v < run.first + run.count; ++v) {
         std::uint32_t& entry = table.change(v);
-        entry = PartUses::with_part(UseEntry(entry), static_cast<std::uint32_t>(header.part)).packed();
+        entry = UseEntry(entry).used_by(static_cast<std::uint32_t>(header.part)).packed();
       }
     }
   });
@@ -149,6 +149,7 @@ std::uint64_t write_names(const std::string& path, const OutputOptions& output, 
   header.runs_checksum = checksum.value();
   header.checksum = io::header_checksum(header);
   file.out().overwrite(0, io::object_bytes(header));
+  run.check_inputs();
   file.commit();
   return names;
 }

@@ -21,7 +21,8 @@ void visit_names(RunContext& run, WholeMesh& mesh, std::uint32_t part,
 // Whether the file begins as one of names.
 bool is_names_file(const std::string& path);
 
-// Writes the names of a share, and returns how many there are. THROWS: as AtomicFile, and the mesh.
+// Writes the names of a share, and returns how many there are.
+// THROWS: as AtomicFile and the mesh; Error{kChanged} if the mesh changes meanwhile, and nothing is written.
 std::uint64_t write_names(const std::string& path, const OutputOptions& output, RunContext& run, WholeMesh& mesh,
                           std::uint32_t part);
 

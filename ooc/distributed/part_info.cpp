@@ -3,15 +3,12 @@
 #include <cmath>
 
 #include "io/file/file.h"
+#include "libreeb/base/state_stream.h"
 #include "libreeb/graph/bucket.h"
 #include "ooc/chunks/last_use_sidecar.h"
 
 namespace reeb::ooc {
 namespace {
-
-void require(bool sound) {
-  if (!sound) throw DamagedState();
-}
 
 bool is_same(const WholeMeshInfo& a, const WholeMeshInfo& b) {
   return a.bytes == b.bytes && a.digest == b.digest && a.reading == b.reading &&
@@ -86,7 +83,7 @@ PartInfo read_info(StateReader& in) {
   mesh.shares.vertices = number();
   mesh.numbers = number();
   const std::uint64_t parts = number();
-  require(parts != 0 && parts <= UseEntry::kMostBlocks);
+  require_state(parts != 0 && parts <= UseEntry::kMostBlocks);
   mesh.shares.parts = static_cast<std::uint32_t>(parts);
   in.get(mesh.simplices);
   std::vector<char> function;
@@ -94,20 +91,20 @@ PartInfo read_info(StateReader& in) {
   info.function.assign(function.begin(), function.end());
   info.values_digest = number();
   in.get(info.denoise);
-  require(std::isfinite(info.denoise) && info.denoise >= 0);
+  require_state(std::isfinite(info.denoise) && info.denoise >= 0);
   info.denoise_is_share = number() != 0;
   const std::uint64_t buckets = number();
-  require(buckets <= kMostBuckets);
+  require_state(buckets <= kMostBuckets);
   info.buckets = static_cast<std::uint32_t>(buckets);
   info.graph_only = number() != 0;
   in.get_array(info.runs);
-  require(!info.runs.empty());
+  require_state(!info.runs.empty());
   for (std::size_t i = 0; i < info.runs.size(); ++i)
-    require(info.runs[i].first <= info.runs[i].last && info.runs[i].last < parts &&
-            (i == 0 || info.runs[i - 1].last < info.runs[i].first));
+    require_state(info.runs[i].first <= info.runs[i].last && info.runs[i].last < parts &&
+                  (i == 0 || info.runs[i - 1].last < info.runs[i].first));
   in.get(info.range.min);
   in.get(info.range.max);
-  require((std::isfinite(info.range.min) && std::isfinite(info.range.max)) || info.range.min > info.range.max);
+  require_state((std::isfinite(info.range.min) && std::isfinite(info.range.max)) || info.range.min > info.range.max);
   for (std::uint64_t* field :
        {&info.degenerate_triangles, &info.unused_vertices, &info.removed_pairs, &info.settled_nodes, &info.settled_arcs,
         &info.live.vertices, &info.live.edges, &info.live.arcs})

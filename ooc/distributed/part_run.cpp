@@ -78,6 +78,7 @@ PartResult run_part(RunContext& run, const MeshInput& input, WholeMesh& mesh, Pa
     result.parts.push_back({info_of(mesh, *function, part, wanted), {}, {}});
   const auto at_end = [&](std::size_t f, const Glue& glue) { copy_open(run, glue, *mesh.mesh, uses, result.parts[f]); };
   const FirstStageResult first = glue_chunks(run, chunks, ordered.plan, here, {}, at_end);
+  run.check_inputs();
   for (std::size_t f = 0; f < run.functions.size(); ++f) {
     FinishedPart& finished = result.parts[f];
     PartInfo& info = finished.info;

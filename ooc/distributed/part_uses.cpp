@@ -4,12 +4,6 @@
 
 namespace reeb::ooc {
 
-UseEntry PartUses::with_part(UseEntry before, std::uint32_t part) {
-  if (before.unused()) return {part, 0};
-  if (before.span() == UseEntry::kSaturatedSpan) return {part, UseEntry::kSaturatedSpan};
-  return {part, part - (before.last_block() - before.span())};
-}
-
 PartSpan PartUses::span_of(UseEntry entry) const {
   const std::uint64_t block = uses_.summary().block_triangles;
   const bool known = entry.span() != UseEntry::kSaturatedSpan;

@@ -19,10 +19,6 @@ class PartUses {
  public:
   PartUses(LastUse uses, const Shares& shares) : uses_(std::move(uses)), shares_(shares) {}
 
-  // The entry of a vertex that `part` names, too, in a table whose blocks are shares. REQUIRES: parts come in ascending
-  // order.
-  static UseEntry with_part(UseEntry before, std::uint32_t part);
-
   const Shares& shares() const { return shares_; }
   // spans[i] is that of ids[i]. REQUIRES: each is named by a share.
   void find(std::span<const VertexId> ids, std::vector<PartSpan>& spans);

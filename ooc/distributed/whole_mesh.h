@@ -37,7 +37,7 @@ void count_triangles(RunContext& run, WholeMesh& mesh);
 // that sizes do not tell their number.
 PartUses find_part_uses(RunContext& run, const MeshInput& input, WholeMesh& mesh);
 
-// An empty table of uses by shares, to be filled with PartUses::with_part().
+// An empty table of uses by shares, to be filled with UseEntry::used_by().
 PagedTable<std::uint32_t> empty_uses(RunContext& run);
 // A table that was filled.
 PartUses uses_of_table(PagedTable<std::uint32_t> table, const Shares& shares);

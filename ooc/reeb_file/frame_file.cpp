@@ -154,7 +154,8 @@ void FrameCursor::check(const FrameFile& file, const FrameHeader& header, const 
   for (const FileArc& arc : frame.arcs) {
     if (arc.lo >= nodes_ || arc.hi >= nodes_) file.fail(offset, "an arc ends at a node that was not introduced");
     if (arc.died != kNeverDies && arc.died > steps) file.fail(offset, "an arc dies after the last version");
-    if (arc.died > last_died_ || arc.born > steps) file.fail(offset, "the arcs are not sorted by their end");
+    if (arc.born > steps) file.fail(offset, "an arc begins after the last version");
+    if (arc.died > last_died_) file.fail(offset, "the arcs are not sorted by their end");
     // A version announced as complete gets no further arcs.
     if (arc.died > complete_ && complete_ <= steps)
       file.fail(offset, "an arc comes after the versions that it belongs to");

@@ -119,11 +119,6 @@ void verify_levels(const FrameFile& file, const Content& content, const std::vec
   }
 }
 
-void verify_arcs(const FrameFile& file, const Content& content) {
-  for (const ArcVersion& arc : content.arcs)
-    if (!(content.nodes[arc.lo.value()] < content.nodes[arc.hi.value()])) file.fail(0, "an arc does not go up");
-}
-
 void verify_full_graph(const FrameFile& file, const Content& content, const ReebGraph& graph) {
   const FileHeader& header = file.header();
   const BettiNumbers betti = betti_numbers(graph);
@@ -159,7 +154,6 @@ void ReebFile::verify() const {
   verify_vertices(file, content, versions);
   for (const LevelLine& line : levels())
     if (line.file_bytes != file.end_of(line.frames)) file.fail(0, "the level table does not fit the seek table");
-  verify_arcs(file, content);
   verify_full_graph(file, content, load(0).graph);
   if (!header().flags.graph_only) verify_pairs(file, pairs());
   verify_digest(file);

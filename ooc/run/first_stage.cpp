@@ -256,7 +256,7 @@ FirstStageResult run_indexed(RunContext& run, const MeshInput& input, std::uniqu
   try {
     return run_once(run, input, mesh, start, true, std::move(result));
   } catch (const WrongSidecar&) {
-    if (input.check_unchanged) input.check_unchanged();
+    run.check_inputs();
     result = before;
   }
   run.start_over();
@@ -304,11 +304,6 @@ FirstStageResult run_first_stage(RunContext& run, MeshInput input) {
   return run_indexed(run, input, std::move(spooled.mesh), run.resumable.checkpoint(), std::move(spooled.result));
 }
 
-void check_unchanged(const std::function<void()>& check_mesh, std::span<VertexFunction* const> functions) {
-  if (check_mesh) check_mesh();
-  for (const VertexFunction* function : functions) function->check_unchanged();
-}
-
 }  // namespace
 
 const Checkpoint* start_run(RunContext& run, std::vector<std::string>& notes) {
@@ -326,15 +321,14 @@ const Checkpoint* start_run(RunContext& run, std::vector<std::string>& notes) {
 
 // Whatever goes wrong with an input that changes is due to the change.
 FirstStageResult read_mesh(RunContext& run, MeshInput input) {
-  const std::function<void()> check_mesh = input.check_unchanged;
   const std::string mesh = input.path;
-  check_unchanged(check_mesh, run.functions);  // the run was identified by the names of its files
+  run.check_inputs();  // the run was identified by the names of its files
   try {
     FirstStageResult first = run_first_stage(run, std::move(input));
-    check_unchanged(check_mesh, run.functions);
+    run.check_inputs();
     return first;
   } catch (Error& error) {
-    check_unchanged(check_mesh, run.functions);
+    run.check_inputs();
     const bool changed = error.cause() == ErrorCause::kChanged;
     if (changed || error.cause() == ErrorCause::kNotManifold) error.at(mesh);
     if (!changed || run.resumable.checkpoint() == nullptr) throw;
@@ -342,7 +336,7 @@ FirstStageResult read_mesh(RunContext& run, MeshInput input) {
                         "start again with --force and without --resume")
         .at(mesh);
   } catch (const std::exception&) {
-    check_unchanged(check_mesh, run.functions);
+    run.check_inputs();
     throw;
   }
 }

@@ -128,7 +128,7 @@ class Ordering {
     known.uses.reset();
     std::optional<LastUse> uses = scan(*mesh_, may_give_up && !run_.options.keep_sidecar);
     if (uses && run_.options.keep_sidecar) {
-      if (input_.check_unchanged) input_.check_unchanged();
+      run_.check_inputs();
       save_sidecar(sidecar, identity, *uses);
     }
     return uses;

@@ -50,7 +50,8 @@ RunContext::RunContext(const MeshInput& input, std::span<VertexFunction* const> 
       values(functions, input.dimension),
       resumable(outputs[0], readable_again(input), functions,
                 {options.denoise, options.denoise_is_share, options.buckets, input.reading, options.manifold},
-                {options.resume, options.replace, options.checkpoint_seconds, options.interrupted}) {
+                {options.resume, options.replace, options.checkpoint_seconds, options.interrupted}),
+      check_mesh_(input.check_unchanged) {
   make_stores();
 }
 
@@ -80,6 +81,11 @@ void RunContext::restore_stores(StateReader& in) {
     make_stores();
     throw;
   }
+}
+
+void RunContext::check_inputs() const {
+  if (check_mesh_) check_mesh_();
+  for (const VertexFunction* function : functions) function->check_unchanged();
 }
 
 void RunContext::tell(const ComputeProgress& progress) const {

@@ -1,6 +1,7 @@
 // What both stages of a run share.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -38,6 +39,8 @@ struct RunContext {
   void start_over();
   // Restores what an earlier process saved of the stores. If that is damaged, the stores are empty.
   void restore_stores(StateReader& in);
+  // THROWS: Error{kChanged} if the mesh or a file of values changed since it was opened.
+  void check_inputs() const;
 
   // THROWS: Error{kInterrupted} if the run is to end. While chunks are glued, interruption is checked between two
   //         chunks instead, where the run can be saved.
@@ -67,6 +70,8 @@ struct RunContext {
 
  private:
   void make_stores();
+
+  const std::function<void()> check_mesh_;
 };
 
 }  // namespace reeb::ooc

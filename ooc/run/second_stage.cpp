@@ -70,12 +70,13 @@ LastNoise remove_last_noise(RunContext& run, StoredGraph& graph) {
   const bool is_small =
       kSmallShare * changed_arcs <= store.arc_count() && kSmallShare * change_bytes <= run.budget.free_bytes();
   if (change_bytes <= run.plan.segment_bytes || is_small) return {pass.removed_pairs, spilled_bytes};
+  const auto poll = [&run] { run.resumable.check_interruption(); };
   auto changed = std::make_unique<SegmentStore>(run.temp, run.budget,
                                                 SegmentOptions{.allowance_bytes = run.plan.segment_bytes,
                                                                .most_bytes = run.plan.most_segment_bytes,
                                                                .background = run.background(),
-                                                               .poll = [&run] { run.resumable.check_interruption(); }});
-  copy_graph(store, *changed, graph.sweep.bucket_exponent);
+                                                               .poll = poll});
+  copy_graph(store, *changed, graph.sweep.bucket_exponent, poll);
   changed->finish();
   graph.store = std::move(changed);
   return {pass.removed_pairs, spilled_bytes + graph.store->spilled_bytes()};

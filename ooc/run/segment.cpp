@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -121,6 +122,16 @@ class FollowedSegmentation : public Segmentation {
                               .poll = [this] { run_.resumable.check_interruption(); }});
     std::vector<ArcLabel> labels;
     std::vector<double> values;
+    // Up to this vertex, the mesh has none: they were left out of the grid.
+    const auto leave_out = [&](std::uint64_t end) {
+      while (vertex_ != end) {
+        labels.resize(static_cast<std::size_t>(std::min<std::uint64_t>(end - vertex_, kVerticesAtOnce)));
+        values.resize(labels.size());
+        read(labels, values);
+        if (!std::ranges::all_of(values, [](double value) { return std::isnan(value); })) throw input_changed();
+        measures.add_vertices(labels, values, {});
+      }
+    };
     bool has_cells = false;
     rewind();
     for (MeshBatch batch; mesh.read(batch);) {
@@ -129,12 +140,7 @@ class FollowedSegmentation : public Segmentation {
       if (batch.vertex_count != 0) {
         const std::uint64_t first = batch.first_vertex.value(), bound = vertex_bound();
         if (first < vertex_ || first > bound || batch.vertex_count > bound - first) throw input_changed();
-        for (std::uint64_t skipped = first - vertex_; skipped != 0; skipped -= labels.size()) {
-          labels.resize(static_cast<std::size_t>(std::min<std::uint64_t>(skipped, kVerticesAtOnce)));
-          values.resize(labels.size());
-          read(labels, values);
-          measures.add_vertices(labels, values, {});
-        }
+        leave_out(first);
         labels.resize(batch.vertex_count);
         values.resize(batch.vertex_count);
         read(labels, values);
@@ -145,6 +151,7 @@ class FollowedSegmentation : public Segmentation {
       for (std::size_t i = 0; i < corners.size(); i += 3)
         measures.add_triangle({corners[i], corners[i + 1], corners[i + 2]});
     }
+    leave_out(vertex_bound());
     MeasuredArcs measured = measures.finish();
     if (has_cells) forget_surface(measured);
     return measured;

@@ -33,7 +33,7 @@ struct SortOptions {
   unsigned threads = 1;                      // that sort a run
   bool background = false;                   // sort and write runs in a separate thread, with half the buffer
   std::string file = {};                     // of the runs, so that another process can resume; empty: unnamed
-  // Called for every block that is scanned, in the thread that scans. It may throw to stop.
+  // Called for every block that is scanned, in one thread at a time. It may throw to stop.
   std::function<void()> poll = {};
 };
 

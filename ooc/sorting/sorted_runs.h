@@ -84,7 +84,7 @@ class SortedRuns {
 
   // Calls look(records) for all blocks, in several threads if `background`, with only the sort keys filled in; and
   // visit(batch), one at a time, for the blocks for which look() returned more than kNothing. `poll` is called for
-  // every block, in this thread.
+  // every block, in any of the threads, but never in two at once.
   template <class Look, class Visit>
   void scan(bool background, const Look& look, const Visit& visit, const std::function<void()>& poll) const {
     struct Block {

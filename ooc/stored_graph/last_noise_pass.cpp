@@ -1,10 +1,12 @@
 #include "ooc/stored_graph/last_noise_pass.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <utility>
 
+#include "libreeb/base/error.h"
 #include "libreeb/graph/packed_lists.h"
 #include "libreeb/noise/denoise.h"
 #include "ooc/stored_graph/change_builder.h"
@@ -29,6 +31,9 @@ RecordBatch<StoredArc> gather(const NoisyGraph& graph, const std::vector<SweepKe
     ++count;
     payload_bytes += payload.size();
   });
+  if (payload_bytes > std::numeric_limits<std::uint32_t>::max())
+    throw Error(ErrorKind::kResource, "the buckets of the arcs from which noise is to be removed take more than 4 GiB",
+                "use fewer buckets (--buckets N), or leave out the embedding (--buckets 0)");
   RecordBatch<StoredArc> arcs;
   arcs.records.reserve(count);
   arcs.pool.reserve(payload_bytes);

@@ -1,6 +1,7 @@
 #include "ooc/stored_graph/segment_store.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <string>
@@ -210,11 +211,29 @@ void SegmentStore::restore(StateReader& in) {
 void SegmentStore::finish() {
   constexpr std::uint64_t kMergeLimitBytes = 64 << 20;  // a thousand runs
   const std::uint64_t merge_bytes = std::min(budget_->free_bytes() / 8, kMergeLimitBytes);
+  if (!background_) {
+    arcs_.finish(merge_bytes, poll_);
+    nodes_.finish(merge_bytes, poll_);
+    return;
+  }
+  // The other thread must not wait for the end of its merge if this one is interrupted.
+  struct Stopped {};
+  std::atomic<bool> stopped = false;
   Worker worker;
-  if (background_) worker.start([&] { nodes_.finish(merge_bytes); });
-  arcs_.finish(merge_bytes, poll_);
-  worker.wait();
-  if (!background_) nodes_.finish(merge_bytes, poll_);
+  worker.start([&] {
+    nodes_.finish(merge_bytes, [&] {
+      if (stopped) throw Stopped();
+    });
+  });
+  try {
+    arcs_.finish(merge_bytes, poll_);
+    worker.wait([&] {
+      if (poll_) poll_();
+    });
+  } catch (...) {
+    stopped = true;
+    throw;
+  }
 }
 
 namespace {
@@ -339,12 +358,13 @@ std::uint64_t SegmentStore::bucket_count() const {
   return bucket_count_ - change_->change().replaced_buckets + change_->change().buckets;
 }
 
-void copy_graph(SegmentStore& from, SegmentStore& to, std::optional<int> bucket_exponent) {
+void copy_graph(SegmentStore& from, SegmentStore& to, std::optional<int> bucket_exponent,
+                const std::function<void()>& poll) {
   constexpr std::size_t kRecordsAtOnce = 4096;
   from.rewind_nodes();
-  for (std::vector<SettledNode> nodes; from.read_nodes(nodes, kRecordsAtOnce);) to.add_nodes(nodes);
+  for (std::vector<SettledNode> nodes; from.read_nodes(nodes, kRecordsAtOnce); poll()) to.add_nodes(nodes);
   from.rewind_arcs();
-  for (PackedArcPiece piece; from.read_arcs(piece, kRecordsAtOnce, bucket_exponent);)
+  for (PackedArcPiece piece; from.read_arcs(piece, kRecordsAtOnce, bucket_exponent); poll())
     to.add_arcs(piece, bucket_exponent);
 }
 

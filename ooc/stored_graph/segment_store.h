@@ -176,7 +176,9 @@ void SegmentStore::scan_nodes(const Predicate& wanted, const Visit& visit) const
               [&](const SettledNode& node, const auto&) { visit(node); });
 }
 
-// Copies a finished store to another. If an exponent is given, buckets are copied, coarsened to it.
-void copy_graph(SegmentStore& from, SegmentStore& to, std::optional<int> bucket_exponent);
+// Copies a finished store to another. If an exponent is given, buckets are copied, coarsened to it. Calls `poll` often;
+// it may throw to stop.
+void copy_graph(SegmentStore& from, SegmentStore& to, std::optional<int> bucket_exponent,
+                const std::function<void()>& poll);
 
 }  // namespace reeb::ooc

@@ -234,6 +234,12 @@ TEST_F(Sidecar, ThatLiesIsIgnored) {
       for (const std::uint32_t entry : entries) summary.unused_vertices += UseEntry(entry).unused() ? 1u : 0u;
     });
   };
+  const auto promise = [](std::uint64_t block_triangles) {
+    return Lie([=](ooc::UseSummary& summary, Entries&) {
+      summary.block_triangles = block_triangles, summary.block_count = UseEntry::kMostBlocks;
+      summary.triangle_count = block_triangles * summary.block_count;
+    });
+  };
   const std::vector<std::pair<std::string, Lie>> lies = {
       {"unused", every(1, [](UseEntry, auto&) { return UseEntry::kUnused; })},
       {"some unused", every(977, [](UseEntry, auto&) { return UseEntry::kUnused; })},
@@ -258,12 +264,17 @@ TEST_F(Sidecar, ThatLiesIsIgnored) {
       {"degenerate", [](ooc::UseSummary& s, Entries&) { s.degenerate_triangles = s.triangle_count + 1; }},
       {"front", [](ooc::UseSummary& s, Entries&) { s.max_live_vertices = s.vertex_count + 1; }},
       {"blocks", [](ooc::UseSummary& s, Entries&) { s.block_triangles = s.triangle_count, s.block_count = 1; }},
+      {"more triangles than address space can hold", promise(std::uint64_t{1} << 40)},
+      {"more triangles than memory can hold", promise(std::uint64_t{1} << 26)},
   };
   for (const auto& [name, lie] : lies) {
     SCOPED_TRACE(name);
     save(lie);
     EXPECT_TRUE(graph({}) == expected_);
     EXPECT_NE(outcome_.error.find("mesh.ply.final is ignored, since "), std::string::npos) << outcome_.error;
+    if (name.starts_with("more triangles")) {
+      EXPECT_LT(outcome_.peak_rss_bytes, 200u << 20);
+    }
   }
   // What only memory depends on.
   save([](ooc::UseSummary& s, Entries&) { s.max_live_vertices = 0; });

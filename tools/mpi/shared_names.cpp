@@ -93,7 +93,7 @@ ooc::PartUses exchange_names(World& world, ooc::RunContext& run, ooc::WholeMesh&
   for (std::uint32_t r = 0; r < world.size(); ++r)
     for_each_vertex(named[r], [&](std::uint64_t v) {
       std::uint32_t& entry = table.change(v);
-      entry = ooc::PartUses::with_part(ooc::UseEntry(entry), r).packed();
+      entry = ooc::UseEntry(entry).used_by(r).packed();
     });
   const std::vector<Numbers> shared = world.exchange(answers(named, table, memory), memory);
   for (std::uint32_t owner = 0; owner < world.size(); ++owner) {

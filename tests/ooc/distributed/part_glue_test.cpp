@@ -4,11 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "libreeb/base/error.h"
+#include "ooc/distributed/compute_part.h"
 #include "ooc/distributed/open_part_state.h"
 #include "ooc/distributed/part_run.h"
 #include "tests/model/reference_reeb.h"
@@ -114,6 +118,50 @@ TEST(PartGlue, GivesTheGraphOfAnyComplexInAnyGrouping) {
     std::sort(settled.arcs.begin(), settled.arcs.end());
     ASSERT_EQ(settled.nodes, expected.nodes) << "complex " << seed + i << " in " << parts << " parts";
     ASSERT_TRUE(settled.arcs == arcs_of(expected)) << "complex " << seed + i << " in " << parts << " parts";
+  }
+}
+
+// Whenever the change is noticed, as the n-th look at the mesh or at the function.
+TEST(PartRun, OfAnInputThatChangesLeavesNoFile) {
+  class Values : public ColumnFunction {
+   public:
+    explicit Values(const std::function<void()>& check) : ColumnFunction(3), check_(check) {}
+    void check_unchanged() const override { check_(); }
+
+   private:
+    const std::function<void()>& check_;
+  };
+  const ComplexMesh data(random_complex(3));
+  for (const bool scans : {false, true}) {
+    bool was_noticed = true;
+    for (int n = 1; was_noticed; ++n) {
+      ASSERT_LT(n, 100);
+      SCOPED_TRACE(testing::Message() << (scans ? "scan" : "fragment") << ", look " << n);
+      int looks = 0;
+      const std::function<void()> check = [&] {
+        if (++looks >= n) throw input_changed();
+      };
+      Values function(check);
+      VertexFunction* const functions[] = {&function};
+      const ooc::Scratch scratch;
+      const std::string output = scratch.path() + "/out";
+      ooc::MeshInput input;
+      input.path = "-";
+      input.indexed = std::make_unique<IndexedComplex>(data);
+      input.check_unchanged = check;
+      was_noticed = false;
+      try {
+        if (scans)
+          ooc::scan_part(std::move(input), functions, output, {}, {0, 2, {}});
+        else
+          ooc::compute_part(std::move(input), functions, std::span(&output, 1), {}, {0, 2, {}});
+      } catch (const Error& error) {
+        was_noticed = error.cause() == ErrorCause::kChanged;
+        ASSERT_TRUE(was_noticed) << error.what();
+      }
+      EXPECT_EQ(std::filesystem::exists(output), !was_noticed);
+      EXPECT_GT(looks, 0);
+    }
   }
 }
 

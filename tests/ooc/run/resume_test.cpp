@@ -639,6 +639,34 @@ TEST(Resume, KeepsTheCheckpointWhoseFilesCannotBeRead) {
   EXPECT_NE(notes.at(0).find("damaged or missing"), std::string::npos) << notes[0];
 }
 
+TEST(Resume, GoesOnAfterTheMeshCouldNotBeRead) {
+  std::size_t in_run = 0;
+  for (const Form form : kForms) {
+    SCOPED_TRACE(name_of(form));
+    Runs runs(grid_mesh(60, 60), form);
+    runs.options.chunk_triangles = 500;
+    const std::string expected = runs.finish(false);
+    ASSERT_TRUE(runs.stop_after(3, false));
+    std::string bytes;
+    for (std::uint64_t n = 1; bytes.empty(); ++n) {
+      ASSERT_LT(n, 1000u);
+      SCOPED_TRACE(testing::Message() << "read " << n);
+      try {
+        const io::ScopedFileFaults faults(
+            FaultAtCall(io::FileCall::kRead, n, {.error = EIO}, FaultAtCall::Which::kOne));
+        bytes = runs.finish(true);
+      } catch (const Error& error) {
+        ASSERT_TRUE(PartialFolder::has_checkpoint(runs.output())) << error.what();
+        if (error.file() != runs.mesh_path()) continue;
+        EXPECT_EQ(error.kind(), ErrorKind::kBadInput) << error.what();
+        in_run += error.hint().find("the same command with --resume") != std::string::npos ? 1u : 0u;
+      }
+    }
+    EXPECT_EQ(bytes, expected);
+  }
+  EXPECT_GE(in_run, 4u);
+}
+
 TEST(Resume, SaysThatThereIsNothingToResume) {
   Runs runs(grid_mesh(20, 20));
   Notes notes;

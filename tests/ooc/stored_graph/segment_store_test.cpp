@@ -266,14 +266,14 @@ TEST_P(Segments, ACopyHasTheSameArcsAndBuckets) {
   store.add_nodes(pieces.nodes);
   add(store, all, 0, all.calls.size());
   store.finish();
-  copy_graph(store, copy, EmbeddedArcs::kLast);
+  copy_graph(store, copy, EmbeddedArcs::kLast, [] {});
   copy.finish();
   EXPECT_EQ(copy.node_count(), store.node_count());
   expect_arcs(copy, expected, 1000);
   std::uint64_t buckets = 0;
   for (const EmbeddedArc& arc : expected) buckets += arc.buckets.size();
   EXPECT_EQ(copy.bucket_count(), buckets);
-  copy_graph(store, plain, {});
+  copy_graph(store, plain, {}, [] {});
   plain.finish();
   EXPECT_EQ(plain.arc_count(), store.arc_count());
   EXPECT_EQ(plain.payload_bytes(), 0u);
