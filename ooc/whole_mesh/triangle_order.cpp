@@ -51,10 +51,14 @@ class OrderedMesh : public IndexedMesh {
   TriangleLog triangles_;
 };
 
+// The numbers of vertices that a function understands.
+enum class Numbering { kOfInput, kOfMesh };
+
 // The values of a function at the vertices of a stretch.
 class StretchValues {
  public:
-  StretchValues(IndexedMesh& mesh, VertexFunction& function) : mesh_(mesh), function_(function) {}
+  StretchValues(IndexedMesh& mesh, VertexFunction& function, Numbering numbering)
+      : mesh_(mesh), function_(function), numbering_(numbering) {}
 
   // The values by number.
   std::span<const double> operator()(const TriangleStretches& stretch) {
@@ -68,6 +72,7 @@ class StretchValues {
     for (std::size_t k = 0; k < columns.size(); ++k)
       by_column.push_back(std::span(gathered_).subspan(k * ids_.size(), ids_.size()));
     ordered_.resize(ids_.size());
+    if (numbering_ == Numbering::kOfInput) mesh_.to_original(ids_);
     function_.evaluate(ids_, by_column, ordered_);
     values_.resize(ids_.size());
     for (std::size_t i = 0; i < order.size(); ++i) values_[order[i]] = ordered_[i];
@@ -77,6 +82,7 @@ class StretchValues {
  private:
   IndexedMesh& mesh_;
   VertexFunction& function_;
+  Numbering numbering_;
   std::vector<VertexId> ids_;
   std::vector<double> gathered_, ordered_, values_;
 };
@@ -111,10 +117,8 @@ class TableFunction : public VertexFunction {
   VertexNumbers& values_;
 };
 
-}  // namespace
-
-std::unique_ptr<IndexedMesh> sorted_by_function(std::unique_ptr<IndexedMesh> mesh, VertexFunction& function,
-                                                Workspace& space, const SortProgress& progress) {
+std::unique_ptr<IndexedMesh> sorted_by(std::unique_ptr<IndexedMesh> mesh, VertexFunction& function, Numbering numbering,
+                                       Workspace& space, const SortProgress& progress) {
   auto ordered = std::make_unique<OrderedMesh>(std::move(mesh), space);
   SortOptions sorting;
   sorting.allowance_bytes = space.share();
@@ -124,7 +128,7 @@ std::unique_ptr<IndexedMesh> sorted_by_function(std::unique_ptr<IndexedMesh> mes
     if (progress) progress(done);
   };
   std::uint64_t triangles = 0, appended = 0;
-  StretchValues values_of(ordered->vertices(), function);
+  StretchValues values_of(ordered->vertices(), function, numbering);
   for (TriangleStretches stretch("triangle order", ordered->vertices(), space); stretch.next();) {
     const auto values = values_of(stretch);
     for (std::size_t t = 0; t < stretch.corners().size() / 3; ++t) sort.add(keyed(stretch, t, values));
@@ -144,6 +148,13 @@ std::unique_ptr<IndexedMesh> sorted_by_function(std::unique_ptr<IndexedMesh> mes
     tell(kMerged + (1 - kMerged) * static_cast<double>(appended) / static_cast<double>(triangles));
   }
   return ordered;
+}
+
+}  // namespace
+
+std::unique_ptr<IndexedMesh> sorted_by_function(std::unique_ptr<IndexedMesh> mesh, VertexFunction& function,
+                                                Workspace& space, const SortProgress& progress) {
+  return sorted_by(std::move(mesh), function, Numbering::kOfInput, space, progress);
 }
 
 std::unique_ptr<IndexedMesh> sorted_along_hilbert(std::unique_ptr<IndexedMesh> mesh, unsigned dimension,
@@ -167,7 +178,7 @@ std::unique_ptr<IndexedMesh> sorted_by_spectrum(std::unique_ptr<IndexedMesh> mes
   auto coherent = sorted_along_hilbert(std::move(mesh), dimension, space, part(0, kCoherent));
   VertexNumbers values = fiedler_vector(*coherent, space);
   TableFunction function(values);
-  return sorted_by_function(std::move(coherent), function, space, part(kVector, 1));
+  return sorted_by(std::move(coherent), function, Numbering::kOfMesh, space, part(kVector, 1));
 }
 
 }  // namespace reeb::ooc

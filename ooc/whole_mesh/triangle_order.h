@@ -14,7 +14,8 @@ namespace reeb::ooc {
 using SortProgress = std::function<void(double done)>;
 
 // The triangles of `mesh`, sorted by their highest corner in the total order of `function`. Triangles with the same
-// highest corner keep their order. Vertices keep their numbers.
+// highest corner keep their order. Vertices keep their numbers. The function is that of the vertices of the input
+// (IndexedMesh::to_original).
 // MEMORY: one share, and the triangles in a log of another. O(n log n), on disk beyond that.
 std::unique_ptr<IndexedMesh> sorted_by_function(std::unique_ptr<IndexedMesh> mesh, VertexFunction& function,
                                                 Workspace& space, const SortProgress& progress = {});

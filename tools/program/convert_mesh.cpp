@@ -130,7 +130,9 @@ class Conversion {
       reader_ = io::make_stream_mesh_reader(std::move(events), read_options(), bytes);
     } else {
       io::ImageOptions image = options_.image;
-      image.renumber = true;  // mesh formats have no vertices to skip
+      // Mesh formats have no vertices to skip. What is sorted is numbered anew when it is spooled, so that functions
+      // see the indices of the image.
+      image.renumber = !sorts_;
       reader_ = io::open_mesh(input_, std::move(source), read_options(), image, format);
     }
     // Without finalization all vertices of the mesh would stay active in the writer.
@@ -308,11 +310,9 @@ std::unique_ptr<IndexedMesh> Conversion::sorted(std::unique_ptr<IndexedMesh> mes
     case TriangleOrder::Kind::kSweep:
       break;
   }
-  io::ImageOptions image = options_.image;
-  image.renumber = true;
   io::OpenMesh open_again;
   if (input_.can_reopen())
-    open_again = [&] { return io::open_mesh(input_, input_.open(), {}, image, options_.format); };
+    open_again = [&] { return io::open_mesh(input_, input_.open(), {}, options_.image, options_.format); };
   const auto fields = io::read_fields({&*options_.order.function, 1}, open_again, options_.input, options_.temp_folder,
                                       options_.memory_bytes);
   io::FunctionSource function(*options_.order.function, reader_->info(), property_columns(), options_.input,

@@ -127,6 +127,47 @@ TEST_F(ImageWithGaps, HasTheValuesOfItsMesh) {
   EXPECT_GE(compared["geodesic"], 5);
 }
 
+// The highest values of the triangles of `mesh`, an OBJ, in order; values are by the line of a vertex.
+std::vector<double> highest_values(const std::string& mesh, const std::map<std::string, double>& value_at) {
+  std::vector<double> values, highest;
+  std::istringstream lines(mesh);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("v ")) values.push_back(value_at.at(line));
+    if (!line.starts_with("f ")) continue;
+    std::istringstream corners(line.substr(2));
+    std::size_t a = 0, b = 0, c = 0;
+    corners >> a >> b >> c;
+    highest.push_back(std::max({values.at(a - 1), values.at(b - 1), values.at(c - 1)}));
+  }
+  return highest;
+}
+
+// Functions of the index mean that of the image there, too.
+TEST_F(ImageWithGaps, IsSortedByTheValuesOfItsOwnVertices) {
+  std::size_t triangles = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    const std::vector<std::uint64_t> present = write_image(seed);
+    expect_success(reeb({"convert", "v.nrrd", "kept.obj", "--nodata", "skip", "--force"}));
+    expect_success(reeb({"function", "v.nrrd", "--nodata", "skip", "-f", "random:5", "-o", "random.txt", "--force"}));
+    const std::vector<std::string> values = values_of(file("random.txt"));
+    std::map<std::string, double> value_at;
+    std::istringstream lines(file("kept.obj"));
+    std::size_t next = 0;
+    for (std::string line; std::getline(lines, line);)
+      if (line.starts_with("v ")) value_at[line] = std::stod(values.at(present.at(next++)));
+    ASSERT_EQ(value_at.size(), present.size());
+    for (const std::string function : {"random:5", "file:random.txt"}) {
+      expect_success(
+          reeb({"convert", "v.nrrd", "sorted.obj", "--nodata", "skip", "--order", "sweep:" + function, "--force"}));
+      const std::vector<double> highest = highest_values(file("sorted.obj"), value_at);
+      EXPECT_TRUE(std::ranges::is_sorted(highest)) << function;
+      triangles += highest.size();
+    }
+  }
+  EXPECT_GT(triangles, 1000u);
+}
+
 TEST_F(ImageWithGaps, IsGluedFromPartsAndReadsItsOwnValues) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
