@@ -40,8 +40,11 @@ CollectedSurface::CollectedSurface(SurfaceContent content) : content_(std::move(
 }
 
 CollectedSurface::Patch CollectedSurface::cut(std::span<const VertexId> seeds, std::span<const Ball> balls,
-                                              std::size_t most_vertices) const {
-  return copy(choose(seeds, balls, most_vertices));
+                                              std::size_t most_vertices,
+                                              const std::function<void(std::size_t)>& chosen) const {
+  const Chosen vertices = choose(seeds, balls, most_vertices);
+  if (chosen) chosen(vertices.members.size());
+  return copy(vertices);
 }
 
 CollectedSurface::Chosen CollectedSurface::choose(std::span<const VertexId> seeds, std::span<const Ball> balls,

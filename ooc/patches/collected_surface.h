@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -38,8 +39,10 @@ class CollectedSurface {
   };
 
   // What is connected with the seeds by triangles whose corners are all in the balls, up to a number of vertices. It
-  // does not depend on what else is here. Seeds that are not here are ignored.
-  Patch cut(std::span<const VertexId> seeds, std::span<const Ball> balls, std::size_t most_vertices) const;
+  // does not depend on what else is here. Seeds that are not here are ignored. `chosen` is told the number of vertices
+  // before they are copied; it may throw.
+  Patch cut(std::span<const VertexId> seeds, std::span<const Ball> balls, std::size_t most_vertices,
+            const std::function<void(std::size_t)>& chosen = {}) const;
 
  private:
   struct Chosen;

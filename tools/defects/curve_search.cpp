@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <queue>
 #include <span>
@@ -23,7 +24,6 @@ namespace {
 
 constexpr double kFirstEdges = 6;  // the radius of the first patches, in edges
 constexpr int kMostReadings = 14;
-constexpr std::uint64_t kSearchBytesPerVertex = 700;  // of a patch, with what a search in it needs
 
 bool same(const FoundCurve& a, const FoundCurve& b) { return a.found() && b.found() && a.path == b.path; }
 
@@ -211,18 +211,20 @@ class CurveSearch {
     return surfaces;
   }
 
-  ooc::CollectedSurface::Patch cut(const ooc::CollectedSurface& surface, const Search& search) const {
+  ooc::CollectedSurface::Patch cut(const ooc::CollectedSurface& surface, const Search& search,
+                                   const std::function<void(std::size_t)>& reserve) const {
     const SettledNode &low = lo(search), &high = hi(search);
     const std::array seeds = {low.key.vertex, high.key.vertex};
     const std::array balls = {ooc::Ball{low.position, search.radius}, ooc::Ball{high.position, search.radius}};
-    return surface.cut(seeds, balls, PatchScale::kMostVertices);
+    return surface.cut(seeds, balls, PatchScale::kMostVertices, reserve);
   }
 
   void search_in(const ooc::CollectedSurface& surface, Search& search) {
     const SettledNode &low = lo(search), &high = hi(search);
-    const ooc::CollectedSurface::Patch patch = cut(surface, search);
-    const Reservation own =
-        options_.budget->reserve("patches of loops", kSearchBytesPerVertex * patch.surface.vertex_count());
+    constexpr std::uint64_t kBytesPerVertex = 700;  // of a patch, with what a search in it needs
+    Reservation own = options_.budget->reserve("patches of loops", 0);
+    const ooc::CollectedSurface::Patch patch =
+        cut(surface, search, [&](std::size_t vertices) { own.resize(kBytesPerVertex * vertices); });
     const std::uint32_t v = patch.surface.find(low.key.vertex), y = patch.surface.find(high.key.vertex);
     for (const auto& [at, node] : {std::pair(v, &low), std::pair(y, &high)}) {
       if (at == SurfacePatch::kNone) throw wrong_mesh(mesh_.path(), node->key.vertex, "is elsewhere in the mesh");

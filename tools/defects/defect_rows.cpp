@@ -97,7 +97,10 @@ bool same_path(const Candidate& a, const Candidate& b) {
 }
 
 void choose_in_cluster(const ooc::CollectedSurface& surface, std::vector<Candidate>& all,
-                       std::span<const std::uint32_t> cluster) {
+                       std::span<const std::uint32_t> cluster, MemoryBudget& budget) {
+  constexpr std::uint64_t kComparedBytesPerVertex = 400;  // of a patch, with what is_known() needs
+  Reservation memory = budget.reserve("patches of curves", 0);
+  const auto reserve = [&](std::size_t vertices) { memory.resize(kComparedBytesPerVertex * vertices); };
   ooc::NearBalls taken;
   std::set<std::uint32_t> loops;
   for (const std::uint32_t i : cluster) {
@@ -117,7 +120,7 @@ void choose_in_cluster(const ooc::CollectedSurface& surface, std::vector<Candida
         std::vector<ooc::Ball> balls = {smaller(candidate.ball)};
         for (const Candidate* other : near)
           if (meet(balls[0], smaller(other->ball))) balls.push_back(smaller(other->ball));
-        const auto patch = surface.cut(candidate.curve->path, balls, 8 * PatchScale::kMostVertices);
+        const auto patch = surface.cut(candidate.curve->path, balls, 8 * PatchScale::kMostVertices, reserve);
         return is_known(patch.surface, candidate, near);
       };
       const auto is_same = [&](const Candidate* other) { return same_path(*other, candidate); };
@@ -132,7 +135,8 @@ void choose_in_cluster(const ooc::CollectedSurface& surface, std::vector<Candida
         near.clear();
         for (const std::uint32_t other : taken.meeting(wide)) near.push_back(&all[other]);
         if (!near.empty()) {
-          const auto patch = surface.cut(candidate.curve->path, std::span(&wide, 1), 8 * PatchScale::kMostVertices);
+          const auto patch =
+              surface.cut(candidate.curve->path, std::span(&wide, 1), 8 * PatchScale::kMostVertices, reserve);
           candidate.taken = !is_known(patch.surface, candidate, near).value_or(false);
         }
       }
@@ -198,7 +202,7 @@ void choose(const ValuedMesh& mesh, const PatchScale& scale, std::vector<Candida
   for (std::uint32_t stretch = 0; stretch < ends.size(); ++stretch) {
     const ooc::CollectedSurface surface = surfaces.surface(stretch);
     ooc::in_parallel(options.threads, ends[stretch] - begin,
-                     [&](std::size_t i) { choose_in_cluster(surface, all, groups[begin + i]); });
+                     [&](std::size_t i) { choose_in_cluster(surface, all, groups[begin + i], *options.budget); });
     begin = ends[stretch];
   }
 }

@@ -7,6 +7,7 @@
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 #include "ooc/run/freed_memory.h"
+#include "ooc/whole_mesh/workspace.h"
 #include "tools/library/temp_folder.h"
 #include "tools/program/simplex_text.h"
 
@@ -82,7 +83,8 @@ void look_at_mesh(const FindDefectsOptions& options, const LoopFunction& graph, 
 }  // namespace
 
 Defects find_defects(const FindDefectsOptions& options) {
-  MemoryBudget budget(options.mesh.memory_bytes);
+  const std::uint64_t set_aside = ooc::set_aside_of(options.mesh.memory_bytes);
+  MemoryBudget budget(options.mesh.memory_bytes - set_aside, set_aside);
   LoopList list = options.files.empty() ? loops_of_mesh(options, budget) : read_loops(options.files, budget);
   ooc::return_freed_memory();
   SearchOptions search;

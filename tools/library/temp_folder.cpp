@@ -66,6 +66,12 @@ TempFolder::TempFolder(const std::string& parent) {
                 "choose a folder that exists and is writable with --temp-dir DIR")
         .at(path_);
   lock_ = lock_folder(path_, LOCK_EX);
+  if (lock_ < 0 && (errno == EMFILE || errno == ENFILE)) {
+    const int error = errno;
+    ::rmdir(path_.c_str());  // without a mark, no later run would remove it
+    throw Error(ErrorKind::kResource, std::string("cannot be opened: ") + std::strerror(error), io::hint_for(error, ""))
+        .at(path_);
+  }
   if (lock_ < 0) return;  // where there are no locks, nobody removes it
   if (const int mark = ::open((path_ + kMark).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600); mark >= 0) ::close(mark);
 }

@@ -234,17 +234,22 @@ std::string note_on_unclear(const Repair& repair) {
            ": --fill-boundaries LENGTH, --drop-duplicates" + then;
   if (fill) return note + "the mesh has " + boundaries + ": --fill-boundaries LENGTH" + then;
   if (drop) return note + "the mesh has " + duplicates + ": --drop-duplicates" + then;
-  return repair.boundaries_filled + repair.duplicates != 0 ? note + "repair the output again" : std::string();
+  return repair.boundaries_filled + repair.duplicates + repair.degenerate != 0 ? note + "repair the output again"
+                                                                               : std::string();
 }
 
 // What repair cannot change, and where loops stay unclear.
 std::vector<std::string> notes_on_obstacles(const Repair& repair) {
   std::vector<std::string> lines;
   const std::uint64_t edges = repair.nonmanifold_edges, vertices = repair.nonmanifold_vertices;
-  if (edges + vertices != 0) {
+  // What is non-manifold at a degenerate triangle is not after it was dropped.
+  if (edges + vertices != 0 && repair.degenerate == 0) {
     std::string places = edges != 0 ? count_of(edges, "non-manifold edge") : std::string();
     if (vertices != 0) places += (edges != 0 ? " and " : "") + count_of(vertices, "non-manifold vertex");
-    lines.push_back("note: the mesh has " + places + ", which repair does not separate; a loop there stays unclear");
+    lines.push_back("note: the mesh has " + places + ", which repair does not separate; a loop there stays unclear" +
+                    (repair.mesh_degenerate == 0 ? ""
+                                                 : "; --drop-degenerate can help (" +
+                                                       count_of(repair.mesh_degenerate, "degenerate triangle") + ")"));
   }
   if (const std::uint64_t pinched = repair.pinched_boundaries; pinched != 0 && !repair.cleaning.boundary_length)
     lines.push_back("note: " + count_of(pinched, "boundary") + " of the mesh cannot be filled: " +
@@ -255,6 +260,7 @@ std::vector<std::string> notes_on_obstacles(const Repair& repair) {
 void find_causes(const RepairOptions& options, Repair& repair) {
   const ooc::MeshCensus census = census_of(options.mesh);
   repair.mesh_duplicates = census.duplicates.count;
+  repair.mesh_degenerate = census.degenerate.count;
   repair.nonmanifold_edges = census.nonmanifold_edges.count;
   repair.nonmanifold_vertices = census.nonmanifold_vertices.count;
   repair.mesh_boundaries = census.boundaries;

@@ -52,7 +52,7 @@ struct Repair {
   std::uint64_t seam_vertices = 0, isolated_vertices = 0;  // as in Cleaning
   // Of the mesh, where loops of an unclear kind are left, which these can cause. Boundaries are those that can be
   // filled, if they are; pinched ones are no simple paths.
-  std::uint64_t mesh_boundaries = 0, pinched_boundaries = 0, mesh_duplicates = 0;
+  std::uint64_t mesh_boundaries = 0, pinched_boundaries = 0, mesh_duplicates = 0, mesh_degenerate = 0;
   std::uint64_t nonmanifold_edges = 0, nonmanifold_vertices = 0;
   std::vector<std::string> warnings;
 };

@@ -104,20 +104,25 @@ class Cleaner {
     return c[0] == c[1] || c[1] == c[2] || c[0] == c[2];
   }
 
+  // A triangle that is removed anyway connects nothing.
+  bool is_removed(const std::array<std::uint64_t, 3>& corners) const {
+    return options_.degenerate && is_degenerate(corners);
+  }
+
   void read() {
     for_each_triangle([&](std::array<std::uint64_t, 3> c, std::uint64_t place) {
+      if (is_removed(c)) {
+        ++result_.degenerate;
+        remove(place);
+        if (options_.components_percent) note_removed(c);
+        return;
+      }
       if (options_.components_percent) {
         join(c[0], c[1]);
         join(c[0], c[2]);
       }
+      if (is_degenerate(c)) return;
       std::sort(c.begin(), c.end());
-      if (is_degenerate(c)) {
-        if (options_.degenerate) {
-          ++result_.degenerate;
-          remove(place);
-        }
-        return;
-      }
       if (options_.duplicates) corner_sets_.add({c, place});
       if (options_.boundary_length) {
         sides_.add({c[0], c[1], c[2]});
@@ -125,6 +130,12 @@ class Cleaner {
         sides_.add({c[1], c[2], c[0]});
       }
     });
+  }
+
+  void note_removed(const std::array<std::uint64_t, 3>& corners) {
+    const std::uint64_t most = *std::ranges::max_element(corners);
+    if (most >= of_removed_.size()) of_removed_.resize(most + 1, false);
+    for (const std::uint64_t v : corners) of_removed_[v] = true;
   }
 
   void list_duplicates() {
@@ -149,6 +160,7 @@ class Cleaner {
     Reservation memory = space_.budget.reserve("sizes of components", 0);
     std::map<std::uint32_t, std::uint64_t> sizes;
     for_each_triangle([&](const std::array<std::uint64_t, 3>& c, std::uint64_t) {
+      if (is_removed(c)) return;
       if (memory.bytes() < kSizeBytes * (sizes.size() + 1)) memory.resize(kSizeBytes * (sizes.size() + kSizesAtOnce));
       sizes[part_.find(static_cast<std::uint32_t>(c[0]))] += is_degenerate(c) ? 0u : 1u;
     });
@@ -160,7 +172,7 @@ class Cleaner {
     count_isolated(sizes);
     if (result_.components == 0) return;
     for_each_triangle([&](const std::array<std::uint64_t, 3>& c, std::uint64_t place) {
-      if (!is_small(part_.find(static_cast<std::uint32_t>(c[0])))) return;
+      if (is_removed(c) || !is_small(part_.find(static_cast<std::uint32_t>(c[0])))) return;
       ++result_.component_triangles;
       remove(place);
     });
@@ -174,9 +186,13 @@ class Cleaner {
     std::vector<bool> has_others(part_.size(), false);
     for (std::uint32_t v = 0; v < part_.size(); ++v)
       if (const std::uint32_t root = part_.find(v); root != v) has_others[root] = true;
-    result_.isolated = vertices_ - std::min<std::uint64_t>(vertices_, part_.size());
-    for (std::uint32_t v = 0; v < part_.size(); ++v)
-      result_.isolated += part_.find(v) == v && !has_others[v] && !sizes.contains(v) ? 1u : 0u;
+    // Vertices that only removed triangles had are removed with them.
+    for (std::uint64_t v = 0; v < vertices_; ++v) {
+      if (v < of_removed_.size() && of_removed_[v]) continue;
+      const auto root = static_cast<std::uint32_t>(v);
+      const bool is_alone = v >= part_.size() || (part_.find(root) == root && !has_others[v] && !sizes.contains(root));
+      result_.isolated += is_alone ? 1u : 0u;
+    }
   }
 
   bool is_dropped(std::uint64_t v) const { return v < result_.in_dropped.size() && result_.in_dropped[v]; }
@@ -275,7 +291,9 @@ class Cleaner {
         }
         simple = simple && count == 2;
       }
-      if (!(sum <= *options_.boundary_length)) {
+      // A length that was printed can be less by the last digit.
+      constexpr double kRounding = 1 + 1e-12;
+      if (!(sum <= *options_.boundary_length * kRounding)) {
         ++result_.long_boundaries;
         continue;
       }
@@ -315,6 +333,7 @@ class Cleaner {
   ooc::ExternalSort<EdgeSide> sides_;
   Reservation removed_memory_, part_memory_;
   UnionFind part_;
+  std::vector<bool> of_removed_;  // by vertex: a corner of a degenerate triangle that is removed
   Reservation end_memory_;
   std::vector<End> ends_;  // by vertex
   std::uint64_t vertices_ = 0;

@@ -14,6 +14,7 @@
 
 #include "tests/support/inputs/plain_surface.h"
 #include "tests/support/inputs/planted_mesh.h"
+#include "tests/support/random.h"
 #include "tests/tools/program.h"
 
 namespace reeb::test {
@@ -213,6 +214,48 @@ TEST_F(RepairTest, DropsAndFillsWhatIsAskedFor) {
   const auto left = json("log.json")["boundaries_left"];
   ASSERT_FALSE(left.empty());
   for (const auto& why : left) EXPECT_EQ(why, "it is longer than --fill-boundaries LENGTH");
+}
+
+// A triangle that is dropped joins no components, and its vertices are dropped with it.
+TEST_F(RepairTest, ComponentsAreThoseWithoutTheTrianglesThatAreDropped) {
+  PlainSurface mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {3, 0, 0}, {4, 0, 0}, {3, 1, 0}, {9, 9, 9}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}, {4, 5, 6}, {0, 4, 4}, {6, 7, 7}};
+  write("d.off", to_off(mesh));
+  const std::vector<std::string> words = {"repair", "d.off",  "-o", "o.ply", "--all", "--drop-components",
+                                          "50%",    "--force"};
+  expect_success(reeb(words));
+  EXPECT_EQ(ply("o.ply").triangles.size(), 7u);
+  std::vector<std::string> both = words;
+  both.emplace_back("--drop-degenerate");
+  const Outcome outcome = reeb(both);
+  expect_success(outcome);
+  EXPECT_NE(outcome.error.find("1 component of 1 triangle dropped\n"), std::string::npos) << outcome.error;
+  EXPECT_EQ(ply("o.ply").triangles.size(), 4u);
+  EXPECT_EQ(ply("o.ply").vertices.size(), 4u);
+}
+
+// `info` prints the length of each boundary; its sums have other last digits.
+TEST_F(RepairTest, FillsBoundariesOfTheLengthThatInfoPrints) {
+  for (int seed = 0; seed < 20; ++seed) {
+    Random random(static_cast<std::uint64_t>(seed));
+    PlainSurface mesh;
+    const std::uint32_t sides = 3 + static_cast<std::uint32_t>(random.below(9));
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      const double angle = 6.283185307179586 * i / sides, radius = 1 + static_cast<double>(random.below(1000)) / 1e4;
+      mesh.vertices.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
+    }
+    mesh.vertices.push_back({0, 0, 2});
+    for (std::uint32_t i = 0; i < sides; ++i) mesh.triangles.push_back({i, (i + 1) % sides, sides});
+    write("cone.off", to_off(mesh));
+    const Outcome info = reeb({"info", "cone.off", "--json"});
+    expect_success(info);
+    const auto boundaries = nlohmann::json::parse(info.output)["boundaries"]["places"];
+    ASSERT_EQ(boundaries.size(), 1u);
+    expect_success(reeb({"repair", "cone.off", "-o", "o.ply", "--longest", "0", "--fill-boundaries",
+                         boundaries[0]["length"].dump(), "--force", "--quiet", "--log", "log.json"}));
+    EXPECT_EQ(json("log.json")["boundaries_filled"], 1) << seed;
+  }
 }
 
 TEST_F(RepairTest, TakesRowsOfAnyFunction) {
@@ -562,7 +605,7 @@ TEST_F(RepairTest, BoundariesAreChargedToTheMemory) {
   }
   write("apart.off", "OFF\n" + std::to_string(3 * kTriangles) + ' ' + std::to_string(kTriangles) + " 0\n" +
                          vertices.str() + triangles.str());
-  expect_error(reeb({"repair", "apart.off", "-o", "o.ply", "--fill-boundaries", "0.001", "--memory", "32M", "--quiet"}),
+  expect_error(reeb({"repair", "apart.off", "-o", "o.ply", "--fill-boundaries", "0.001", "--memory", "41M", "--quiet"}),
                3, "paths of boundaries needs ");
 }
 
