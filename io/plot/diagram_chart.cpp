@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "io/plot/gnuplot_text.h"
+#include "io/plot/value_axis.h"
 #include "io/text/number_text.h"
 #include "libreeb/base/count_text.h"
 
@@ -79,15 +80,17 @@ std::string diagram_chart(const std::string& function, const DiagramPoints& poin
   // Values of any size: gnuplot fails where the range is nothing, or more than a number.
   const double low = std::max(points.low(), -1e300), high = std::min(points.high(), 1e300);
   const double margin = high > low ? (high - low) * 0.03 : std::max(1.0, std::abs(low)) * 0.5;
+  const double base = axis_base(low, high, round_values(low, high, 5));
+  const std::string less = base == 0 ? "" : ", less " + short_number(base, digits_for_range(low, high));
   for (const char* axis : {"set xrange [", "set yrange ["}) {
     text += axis;
-    append_double(text, low - margin);
+    append_double(text, low - margin - base);
     text += ':';
-    append_double(text, high + margin);
+    append_double(text, high + margin - base);
     text += "]\n";
   }
-  text += "set xlabel " + gnuplot_quoted("f = " + function + " where the feature begins") + "\nset ylabel " +
-          gnuplot_quoted("f = " + function + " where it ends") +
+  text += "set xlabel " + gnuplot_quoted("f = " + function + " where the feature begins" + less) + "\nset ylabel " +
+          gnuplot_quoted("f = " + function + " where it ends" + less) +
           "\nset size square\n"
           "set key at screen 0.69, screen 0.86 left top vertical Left reverse samplen 1\n"  // beside the square
           "set rmargin at screen 0.67\nset lmargin at screen 0.11\nset bmargin at screen 0.11\n"
@@ -100,9 +103,9 @@ std::string diagram_chart(const std::string& function, const DiagramPoints& poin
     text += std::string(style.block) + " << END\n";
     if (points.of(style.type).empty()) text += "NaN NaN\n";
     for (const DiagramPoints::Point& point : points.of(style.type)) {
-      append_double(text, point.x);
+      append_double(text, point.x - base);
       text += ' ';
-      append_double(text, point.y);
+      append_double(text, point.y - base);
       text += '\n';
     }
     text += "END\n";

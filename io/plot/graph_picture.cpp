@@ -22,8 +22,11 @@ PicturePoint place(PicturePoint point) {
 void append_axis(std::string& svg, const ReebGraph& graph, const std::string& function) {
   const double low = graph.nodes.front().value, high = graph.nodes.back().value;
   svg += "<g stroke=\"#dcdcdc\" stroke-width=\"0.7\">\n";
-  std::string labels;
-  for (const double value : round_values(low, high, 8)) {
+  std::string labels, title = "f = " + function;
+  const std::vector<double> values = round_values(low, high, 8);
+  const double base = axis_base(low, high, values);
+  if (base != 0) title += ", less " + short_number(base, digits_for_range(low, high));
+  for (const double value : values) {
     const double height = high > low ? (value / 2 - low / 2) / (high / 2 - low / 2) : 0.5;
     const double y = place({0, height}).y;
     svg += "<path d=\"M";
@@ -31,13 +34,13 @@ void append_axis(std::string& svg, const ReebGraph& graph, const std::string& fu
     svg += 'H';
     append_coordinate(svg, kWidth - kRight);
     svg += "\"/>\n";
-    append_text(labels, {kLeft - 9, y + 4}, short_number(value), {.size = 12, .anchor = "end"});
+    append_text(labels, {kLeft - 9, y + 4}, short_number(value - base), {.size = 12, .anchor = "end"});
   }
   svg += "</g>\n" + labels;
   svg += "<g transform=\"rotate(-90 22 ";
   append_coordinate(svg, kHeight / 2);
   svg += ")\">";
-  append_text(svg, {22, kHeight / 2}, "f = " + function, {.size = 13, .anchor = "middle"});
+  append_text(svg, {22, kHeight / 2}, title, {.size = 13, .anchor = "middle"});
   svg += "</g>\n";
 }
 

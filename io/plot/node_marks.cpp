@@ -57,7 +57,7 @@ void append_node(std::string& svg, PicturePoint at, NodeKind kind, double radius
   svg += "z\" fill=\"" + hex(node_color(kind)) + "\"/>\n";
 }
 
-void append_legend(std::string& svg, PicturePoint at, std::span<const NodeKind> kinds) {
+double append_legend(std::string& svg, PicturePoint at, std::span<const NodeKind> kinds) {
   constexpr std::array<std::pair<NodeKind, const char*>, 4> kNouns = {{{NodeKind::kMinimum, "minimum"},
                                                                        {NodeKind::kMaximum, "maximum"},
                                                                        {NodeKind::kFork, "fork"},
@@ -75,6 +75,7 @@ void append_legend(std::string& svg, PicturePoint at, std::span<const NodeKind> 
     at.x += 34 + 7.2 * static_cast<double>(text.size());
   }
   svg += "</g>\n" + texts;
+  return at.x;
 }
 
 }  // namespace reeb::io

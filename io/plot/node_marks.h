@@ -21,7 +21,7 @@ Rgb node_color(NodeKind kind);
 // An element of class "node" around `at`, without a stroke of its own. Minima point down, maxima up.
 void append_node(std::string& svg, PicturePoint at, NodeKind kind, double radius, std::string_view name = "node");
 
-// The kinds that occur, each with its number, in a row that begins at `at`.
-void append_legend(std::string& svg, PicturePoint at, std::span<const NodeKind> kinds);
+// The kinds that occur, each with its number, in a row that begins at `at`. Returns where the row ends.
+double append_legend(std::string& svg, PicturePoint at, std::span<const NodeKind> kinds);
 
 }  // namespace reeb::io

@@ -161,9 +161,11 @@ void append_color_bar(std::string& svg, PicturePoint at, const GraphView& view, 
     svg += "\" fill=\"" + hex(of_surface ? surface_color(t) : line_color(t)) + "\"/>\n";
   }
   const double y = at.y + kHeight + 14;
-  append_text(svg, {at.x, y}, short_number(view.graph.nodes.front().value, 4), {.size = 11});
+  const double low = view.graph.nodes.front().value, high = view.graph.nodes.back().value;
+  const int digits = digits_for_range(low, high, 4);
+  append_text(svg, {at.x, y}, short_number(low, digits), {.size = 11});
   append_text(svg, {at.x + kWidth / 2, y}, "f = " + std::string(view.function), {.size = 11, .anchor = "middle"});
-  append_text(svg, {at.x + kWidth, y}, short_number(view.graph.nodes.back().value, 4), {.size = 11, .anchor = "end"});
+  append_text(svg, {at.x + kWidth, y}, short_number(high, digits), {.size = 11, .anchor = "end"});
 }
 
 // How long a round number of units of the mesh is. `at` is its right end.
@@ -232,8 +234,12 @@ void append_legends(std::string& svg, double top, const GraphView& view, const S
   const bool has_colors =
       !lines.arcs.empty() && (scene.colors == LineColors::kValue || scene.style == SurfaceStyle::kValue);
   if (has_colors) append_color_bar(svg, {20, top + 12}, view, scene);
-  if (!kinds.empty()) append_legend(svg, {has_colors ? 252.0 : 26.0, top + 22}, kinds);
-  append_scale(svg, {kSkeletonWidth - 24, top + 10}, scene.projection.pixels_per_unit());
+  double end = 0;
+  if (!kinds.empty()) end = append_legend(svg, {has_colors ? 252.0 : 26.0, top + 22}, kinds);
+  // The scale is beside a short legend, and below a long one.
+  constexpr double kScaleWidth = 230;
+  const double scale_top = end > kSkeletonWidth - 24 - kScaleWidth ? top + 33 : top + 10;
+  append_scale(svg, {kSkeletonWidth - 24, scale_top}, scene.projection.pixels_per_unit());
   // A line that turns back to its fork looks as if it ended.
   if (!lines.arcs.empty())
     append_text(svg, {20, top + 56},

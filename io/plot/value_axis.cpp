@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "io/text/number_text.h"
+
 namespace reeb::io {
 
 std::vector<double> round_values(double low, double high, std::size_t count) {
@@ -16,6 +18,11 @@ std::vector<double> round_values(double low, double high, std::size_t count) {
   // Where the step is less than the distance of numbers near `low`, there would be no end.
   for (double i = first; i <= last && values.size() < 4 * count; i += 1) values.push_back(i == 0 ? 0 : i * step);
   return values;
+}
+
+double axis_base(double low, double high, const std::vector<double>& labels) {
+  constexpr int kDigits = 3, kMostDigits = 6;
+  return labels.empty() || digits_for_range(low, high, kDigits) <= kMostDigits ? 0 : labels.front();
 }
 
 }  // namespace reeb::io

@@ -10,4 +10,8 @@ namespace reeb::io {
 // hardly more than nothing.
 std::vector<double> round_values(double low, double high, std::size_t count);
 
+// Where the range is so small beside the values that labels would be long: the first of these labels, from which the
+// labels count. Else 0.
+double axis_base(double low, double high, const std::vector<double>& labels);
+
 }  // namespace reeb::io

@@ -1,5 +1,8 @@
 #include "io/text/number_text.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace reeb::io {
 
 void append_double(std::string& out, double value) { append_rounded(out, value, 17); }
@@ -15,6 +18,13 @@ std::string short_number(double value, int digits) {
   std::string text;
   append_rounded(text, value, digits);
   return text;
+}
+
+int digits_for_range(double low, double high, int digits) {
+  constexpr int kAll = 17;
+  const double most = std::max(std::abs(low), std::abs(high)) / 2, range = high / 2 - low / 2;  // halves are finite
+  if (!(range > 0) || range >= most) return digits;
+  return std::min(kAll, digits + static_cast<int>(std::log10(most / range)));
 }
 
 void append_shortest(std::string& out, double value) {

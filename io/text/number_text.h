@@ -17,6 +17,9 @@ void append_rounded(std::string& out, double value, int digits);
 // The same for people, who need few: "0.25", "1.5e+20".
 std::string short_number(double value, int digits = 6);
 
+// How many digits tell numbers of this range apart as well as `digits` do where the range is as large as the numbers.
+int digits_for_range(double low, double high, int digits = 6);
+
 // A blank and a number, as in the lines of streaming meshes; -0 stays. A float as `%.9g`, which restores it; a double
 // in the shortest form that restores it.
 void append_field(std::string& out, float value);

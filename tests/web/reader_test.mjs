@@ -118,6 +118,22 @@ function randomMesh(name) {
   writeFileSync(name, ['OFF', `${vertices} ${triangles.length} 0`, ...lines, ...triangles, ''].join('\n'))
 }
 
+// A bucket of such a function is one unit in the last place wide, so its index has 53 bits.
+async function nearlyConstant() {
+  for (const [base, step] of [[1, 0], [-7.25, 0], [1e-30, 0], [100, 2 ** -46], [-1e6, 2 ** -33], [1e9, 1e-6]]) {
+    const side = 10
+    const at = Array.from({ length: side * side }, (_, i) => [i % side, Math.floor(i / side)])
+    const quads = at.filter(([x, y]) => x > 0 && y > 0).map(([x, y]) => y * side + x)
+    writeFileSync(join(work, 'flat.off'), [
+      'OFF', `${at.length} ${quads.length} 0`,
+      ...at.map(([x, y]) => `${x} ${y} ${base + step * ((x * y) % 7)}`),
+      ...quads.map((i) => `4 ${i - side - 1} ${i - side} ${i} ${i - 1}`), '',
+    ].join('\n'))
+    run('compute', join(work, 'flat.off'), '--quiet', '--force', '-o', join(work, 'flat.reeb'))
+    await compare(join(work, 'flat.reeb'), () => [0])
+  }
+}
+
 async function generated() {
   let files = 0
   for (let i = 0; i < 67; ++i) {
@@ -300,6 +316,7 @@ async function marks() {
 }
 
 await marks()
+await nearlyConstant()
 const files = await generated()
 console.log(failures === 0 ? `ok: ${files} generated files, the example and a scan` : `${failures} failures`)
 process.exit(failures > 0 ? 1 : 0)

@@ -54,6 +54,8 @@ async function slider(browser) {
     })()`)
     const { nodes, arcs } = extracted(String(drawn.threshold))
     same(`level ${level} has the nodes and arcs of extract`, [drawn.nodes, drawn.arcs], [nodes, arcs])
+    const [shown] = await thresholdBox(browser)
+    same(`level ${level} is that of its number, ${shown}`, extracted(shown), { nodes, arcs })
   }
   for (const threshold of ['0', '0.5%', '2%', '0.01', '1e9']) {
     const drawn = await browser.evaluate(`(() => {
@@ -101,7 +103,7 @@ async function slider(browser) {
 async function tables(browser) {
   const column = (table, index) =>
     `[...document.querySelector('${table} tbody').rows].map((row) => row.cells[${index}].dataset.value ?? row.cells[${index}].textContent)`
-  for (const [section, name] of [['#features', 'persistence'], ['#features', 'rank'], ['#defects', 'kind'], ['#levels', 'nodes']]) {
+  for (const [section, name] of [['#features', 'persistence'], ['#features', 'rank'], ['#defects', 'kind'], ['#defects', 'centre'], ['#levels', 'nodes']]) {
     const index = await browser.evaluate(
       `[...document.querySelector('${section} thead').rows[0].cells].findIndex((cell) => cell.textContent === '${name}')`,
     )
@@ -116,7 +118,8 @@ async function tables(browser) {
       orders[sort] = await browser.evaluate(column(section, index))
     }
     const numeric = before.every((text) => !Number.isNaN(Number(text)))
-    const sorted = [...before].sort(numeric ? (a, b) => a - b : (a, b) => a.localeCompare(b))
+    const byPlace = (a, b) => a.split(', ').reduce((order, x, i) => order || x - b.split(', ')[i], 0)
+    const sorted = [...before].sort(name === 'centre' ? byPlace : numeric ? (a, b) => a - b : (a, b) => a.localeCompare(b))
     same(`${section} sorts by ${name}, ascending`, orders.ascending?.map(String), sorted)
     same(`${section} sorts by ${name}, descending`, orders.descending?.map(String), [...sorted].reverse())
   }

@@ -251,6 +251,12 @@ const box = () => browser.evaluate(`(() => {
   const note = document.getElementById(input.getAttribute('aria-describedby'))
   return [input.value, note.textContent, note.getBoundingClientRect().height > 10]
 })()`)
+const rows = await browser.evaluate(`[...document.querySelectorAll('#levels tbody tr')].map(({ cells }) => [cells[0].textContent, cells[2].textContent])`)
+check('the table of levels has rows', rows.length > 5, rows.length)
+for (const [threshold, nodes] of rows) {
+  const lines = execFileSync(reeb, ['extract', join(work, 'scan.reeb'), '--threshold', threshold], { encoding: 'utf8' }).split('\n')
+  check(`threshold ${threshold} of the table is that of its level`, lines.filter((line) => line.startsWith('n ')).length === Number(nodes.replaceAll(',', '')), nodes)
+}
 const [typed, level] = await box()
 check('a threshold stays as it was typed, and its level is said', typed === '1%' && Number(level.slice(6)) > 0.5 && Number(level.slice(6)) <= 0.634, [typed, level])
 const hash = await browser.evaluate('location.hash')

@@ -4,12 +4,14 @@
 #include <memory>
 #include <string>
 
+#include "ooc/reeb_file/reeb_file.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/library/run_files.h"
 #include "tools/program/input_kind.h"
 #include "tools/program/signals.h"
 #include "tools/program/standard_streams.h"
+#include "tools/program/whole_levels.h"
 #include "tools/report/report.h"
 #include "tools/view/file_server.h"
 #include "tools/view/open_browser.h"
@@ -30,6 +32,7 @@ void view(const ViewOptions& options) {
   files.add_input(options.file, "the .reeb file");
   files.add_standard_output("the address");
   files.check();
+  warn_of_damage(ooc::ReebFile(options.file));
   FileServer server(viewer_page(), options.file, options.port);
   fmt::print("{}\n", server.address());
   finish_standard_output();  // nobody finds a server without its address

@@ -58,8 +58,8 @@ std::string threshold_text(const ooc::ReebFile& file, const LevelLine& level) {
       const double typed = number_of(text);
       if (typed >= level.threshold && file.version_at(typed) == level.version) return text;
     }
-  } catch (const Error& error) {  // which threshold gives a finer level can be in the part that is missing
-    if (!meets_missing_part(file, error)) throw;
+  } catch (const Error& error) {  // which threshold gives a finer level can be in a part that is missing or damaged
+    if (error.kind() != ErrorKind::kBadInput) throw;
   }
   return exact;
 }

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -168,27 +169,57 @@ void search_mesh(const ooc::ReebFile& file, const ReportOptions& options, Findin
   findings.closeups = closeups_json(mesh, *findings.defects);
 }
 
+// Whether it could be read. Of a damaged file, `what` is named if it could not.
+template <class Read>
+bool read_if_whole(const ooc::ReebFile& file, const ReportOptions& options, const char* what, Findings& findings,
+                   const Read& read) {
+  try {
+    read();
+    return true;
+  } catch (const Error& error) {
+    const bool is_damaged = error.kind() == ErrorKind::kBadInput && error.file() == file.path();
+    if (file.damage() == nullptr && !is_damaged) throw;
+    findings.notes.push_back(fmt::format("{} cannot be read: {}.", what, error.what()));
+    if (options.note && file.damage() == nullptr)
+      options.note(fmt::format("{} cannot be read: {}", what, error.what()));
+    return false;
+  }
+}
+
+// With levels as fine as they are wanted and can be read.
+void find_skeleton(const ooc::ReebFile& file, const ReportOptions& options, Findings& findings) {
+  const bool is_whole = read_if_whole(file, options, "The finest level", findings, [&] {
+    findings.finest = finest_level(file, options, findings);
+    if (findings.finest) findings.skeleton = skeleton_json(file, *findings.finest);
+  });
+  if (is_whole) return;
+  const std::size_t nodes = options.nodes.value_or(usual_nodes(file.header()));
+  const std::uint32_t damaged = findings.finest.value_or(0);
+  for (const LevelLine& level : file.levels() | std::views::reverse) {
+    if (level.version <= damaged || level.nodes > nodes) continue;
+    try {
+      findings.skeleton = skeleton_json(file, level.version);
+      findings.finest = level.version;
+      findings.notes.push_back("The skeleton in this page shows the levels before the damage, with at most " +
+                               count_of(level.nodes, "node") + ".");
+      return;
+    } catch (const Error&) {
+      // A coarser one needs less of the file.
+    }
+  }
+  findings.finest.reset();
+}
+
 Findings find(const ooc::ReebFile& file, const ReportOptions& options) {
   Findings findings;
   note_file(file, findings);
   const FileHeader& header = file.header();
-  // The graph of a damaged file is as good as its whole frames; what cannot be read is named.
-  const auto as_far_as_readable = [&](const char* what, const auto& read) {
-    try {
-      read();
-    } catch (const Error& error) {
-      if (file.damage() == nullptr) throw;
-      findings.notes.push_back(fmt::format("{} cannot be read: {}.", what, error.what()));
-    }
-  };
   if (!header.flags.graph_only) {
     findings.no_pairs = "The pairs cannot be read";
-    as_far_as_readable("The pairs", [&] { findings.pairs = ooc::read_largest_pairs(file.path(), kMostPairs); });
+    read_if_whole(file, options, "The pairs", findings,
+                  [&] { findings.pairs = ooc::read_largest_pairs(file.path(), kMostPairs); });
   }
-  as_far_as_readable("The skeleton", [&] {
-    findings.finest = finest_level(file, options, findings);
-    if (findings.finest) findings.skeleton = skeleton_json(file, *findings.finest);
-  });
+  find_skeleton(file, options, findings);
   if (!options.defects.mesh.path.empty())
     search_mesh(file, options, findings);
   else
@@ -196,12 +227,17 @@ Findings find(const ooc::ReebFile& file, const ReportOptions& options) {
   return findings;
 }
 
+std::string range_text(double min, double max) {
+  const int digits = io::digits_for_range(min, max, 9);
+  return io::short_number(min, digits) + " to " + io::short_number(max, digits);
+}
+
 std::vector<NamedText> summary_rows(const ooc::ReebFile& file, const Findings& findings) {
   const FileHeader& header = file.header();
   std::vector<NamedText> rows{
       {"file", base_name(file.path())},
       {"function", header.function},
-      {"range", fmt::format("{:.9g} to {:.9g}", header.function_min, header.function_max)},
+      {"range", range_text(header.function_min, header.function_max)},
       {"mesh vertices", with_commas(header.mesh_vertices)},
   };
   // Of images and tetrahedra, the file has no count.

@@ -34,8 +34,8 @@ std::string head(const std::string& caption, const char* buttons, std::initializ
 constexpr const char* kEnd = "</tbody>\n</table>\n";
 
 std::string number(const std::string& text) { return "<td class=\"number\">" + text + "</td>"; }
-std::string number(double value) {
-  return std::isfinite(value) ? number(io::short_number(value))
+std::string number(double value, int digits = 6) {
+  return std::isfinite(value) ? number(io::short_number(value, digits))
                               : "<td class=\"number\" data-value=\"Infinity\"><span class=\"quiet\">none</span></td>";
 }
 // A count, which sorts as the number that it is.
@@ -44,9 +44,27 @@ std::string count(std::uint64_t value) {
 }
 std::string text(const std::string& shown) { return "<td>" + shown + "</td>"; }
 
-std::string place(const Point& point) {
-  return fmt::format("<td class=\"place\">{:.5g}, {:.5g}, {:.5g}</td>", point[0], point[1], point[2]);
-}
+// Places with as many digits as tell them apart.
+class PlaceText {
+ public:
+  void add(const Point& point) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low_[k] = std::min(low_[k], point[k]);
+      high_[k] = std::max(high_[k], point[k]);
+    }
+  }
+  std::string operator()(const Point& point) const {
+    std::string text;
+    for (std::size_t k = 0; k < 3; ++k)
+      text += (k == 0 ? "" : ", ") +
+              io::short_number(point[k], std::max(kLeast, io::digits_for_range(low_[k], high_[k], kOfRange)));
+    return "<td class=\"place\">" + text + "</td>";
+  }
+
+ private:
+  static constexpr int kLeast = 5, kOfRange = 4;
+  Point low_{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high_{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+};
 
 std::string percent(double percent) { return number(fmt::format("{:.4g}", percent)); }
 std::string percent(const ValueRange& range, double lo, double hi) {
@@ -78,6 +96,9 @@ std::string pairs_table(std::span<const ooc::PairRow> rows, const ValueRange& ra
                           {"lower vertex"},
                           {"upper vertex"},
                           {"place of upper vertex", false}});
+  PlaceText place;
+  for (const ooc::PairRow& row : rows) place.add(row.hi.position);
+  const int digits = io::digits_for_range(range.min, range.max);
   std::size_t rank = 0;
   for (const ooc::PairRow& row : rows) {
     const double persistence = row.hi.key.value - row.lo.key.value;
@@ -86,8 +107,8 @@ std::string pairs_table(std::span<const ooc::PairRow> rows, const ValueRange& ra
     if (with_buttons) out += button("pair", rank - 1, fmt::format("Show feature {} in the skeleton", rank));
     out += number(std::to_string(rank)) +
            text(fmt::format("{} ({}){}", feature_name(row.type), name_of(row.type), row.kept ? ", kept" : "")) +
-           number(persistence) + percent(range, row.lo.key.value, row.hi.key.value) + number(row.lo.key.value) +
-           number(row.hi.key.value) + number(std::to_string(row.lo.key.vertex.value())) +
+           number(persistence) + percent(range, row.lo.key.value, row.hi.key.value) + number(row.lo.key.value, digits) +
+           number(row.hi.key.value, digits) + number(std::to_string(row.lo.key.vertex.value())) +
            number(std::to_string(row.hi.key.vertex.value())) + place(row.hi.position) + "</tr>\n";
   }
   return out + kEnd;
@@ -106,6 +127,8 @@ std::string defects_table(const Defects& defects, std::size_t most, std::size_t 
                           {"upper vertex"},
                           {"centre", false}});
   const auto& rows = defects.table.rows;
+  PlaceText place;
+  for (const DefectRow& row : rows) place.add(row.curve.place.center);
   for (std::size_t i = 0; i < std::min(rows.size(), most); ++i) {
     const DefectRow& row = rows[i];
     out += "<tr>";

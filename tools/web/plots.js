@@ -1,5 +1,5 @@
 // Plots as SVG: how many loops there are above a persistence, and the persistence diagram.
-import { count, distinctNumbers, shortNumber } from './data.js'
+import { count, digitsFor, distinctNumbers, shortNumber } from './data.js'
 
 const kWidth = 560
 const kHeight = 400
@@ -71,8 +71,8 @@ function logScale(least, most, floor = least) {
 const kLeastLoops = 0.7 // the lower end of the axis, as in `reeb plot`; zero has no place on it
 
 // `steps`: [persistence, number of loops of at least this persistence], the largest persistence first. `known`: loops of
-// more persistence are all among them, so the curve ends there.
-export function loopsPlot(steps, range, known = 0) {
+// more persistence are all among them, so the curve ends there; `more`: what would load others.
+export function loopsPlot(steps, range, known = 0, more = '') {
   const shown = steps.filter(([persistence]) => persistence > known).map(([p, n]) => [(100 * p) / range, n])
   if (shown.length === 0) return null
   const isPart = known > 0
@@ -109,7 +109,7 @@ export function loopsPlot(steps, range, known = 0) {
     spots.join('')
   const last = shown[shown.length - 1]
   const noise = isPart
-    ? `Loops below ${shortNumber(Number(least.toPrecision(3)))} % of the range are not loaded, so the curve ends there; lower the threshold to load more.`
+    ? `Loops below ${shortNumber(Number(least.toPrecision(3)))} % of the range are not loaded, so the curve ends there; ${more}.`
     : 'A flat part is a gap: the loops left of it are noise or defects, those right of it are more likely features.'
   return figure(
     'plot-loops',
@@ -154,6 +154,7 @@ const kTypes = [
 export function persistenceDiagram(pairs, min, max, total) {
   if (pairs.length === 0 || !(max > min)) return null
   const nice = niceTicks(min, max)
+  const digits = digitsFor(min, max)
   // Where the range is small beside the values, differences fit beside the axis.
   const isLong = nice.length > 1 && nice.some(({ text }) => text.length > kMostTickLetters)
   const unit = isLong ? 10 ** Math.floor(Math.log10(nice[1].value - nice[0].value)) : 1
@@ -166,7 +167,7 @@ export function persistenceDiagram(pairs, min, max, total) {
   const marks = [...pairs].reverse().map(([type, low, high, lowVertex, highVertex]) => {
     const shape = kTypes.find(([name]) => name === type)[2]
     const [begin, end] = type === 'Ord0' || type === 'Ext0' ? [low, high] : [high, low]
-    const title = `${type}: vertex ${lowVertex} (${shortNumber(low)}) to ${highVertex} (${shortNumber(high)}), persistence ${shortNumber(high - low)}`
+    const title = `${type}: vertex ${lowVertex} (${shortNumber(low, digits)}) to ${highVertex} (${shortNumber(high, digits)}), persistence ${shortNumber(high - low)}`
     return `<path class="${type}" d="${shape}" transform="translate(${xAt(part(begin)).toFixed(1)} ${yAt(part(end)).toFixed(1)})"><title>${title}</title></path>`
   })
   const content =

@@ -1,16 +1,17 @@
 // Tables that sort when a heading is pressed.
 
-// What a cell is sorted by: a number, if it is one.
+// What a cell is sorted by: its numbers, if it is a number or a place, else its text.
 function keyOf(cell) {
-  const text = cell.dataset.value ?? cell.textContent
-  const number = Number(text)
-  return text.trim() !== '' && !Number.isNaN(number) ? number : text.trim()
+  const text = (cell.dataset.value ?? cell.textContent).trim()
+  const numbers = text.split(',').map((part) => (part.trim() === '' ? NaN : Number(part)))
+  return numbers.some(Number.isNaN) ? text : numbers
 }
 
 function compare(a, b) {
-  if (typeof a === 'number' && typeof b === 'number') return a - b
-  if (typeof a !== typeof b) return typeof a === 'number' ? -1 : 1
-  return a.localeCompare(b)
+  if (typeof a === 'string' && typeof b === 'string') return a.localeCompare(b)
+  if (typeof a === 'string' || typeof b === 'string') return typeof a === 'string' ? 1 : -1
+  const at = a.findIndex((number, i) => number !== b[i])
+  return at < 0 ? 0 : a[at] - b[at]
 }
 
 export function makeSortable(table, announce) {

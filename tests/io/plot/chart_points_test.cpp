@@ -11,6 +11,7 @@
 #include "io/plot/gnuplot_text.h"
 #include "io/plot/loop_chart.h"
 #include "io/plot/value_axis.h"
+#include "io/text/number_text.h"
 
 namespace reeb::io {
 namespace {
@@ -129,6 +130,24 @@ TEST(ChartText, WritesShortCoordinates) {
     append_coordinate(svg, value);
     EXPECT_EQ(svg, text);
   }
+}
+
+// Values whose range is small beside them, as coordinates of maps are.
+TEST(ValueAxis, TellsNumbersOfASmallRangeApart) {
+  EXPECT_EQ(digits_for_range(0, 1), 6);
+  EXPECT_EQ(digits_for_range(-3, 2), 6);
+  EXPECT_EQ(digits_for_range(5, 5), 6);
+  EXPECT_EQ(digits_for_range(-1e308, 1e308), 6);
+  const double low = 4900122.7, high = 4900124.3;
+  EXPECT_EQ(digits_for_range(low, high, 4), 10);
+  EXPECT_EQ(short_number(low, digits_for_range(low, high, 4)), "4900122.7");
+  EXPECT_NE(short_number(1e9, digits_for_range(1e9, 1e9 + 1e-6)),
+            short_number(1e9 + 1e-6, digits_for_range(1e9, 1e9 + 1e-6)));
+  const auto labels = round_values(low, high, 5);
+  EXPECT_EQ(axis_base(low, high, labels), labels.front());
+  EXPECT_EQ(axis_base(-low, -low + 1e-3, {-low}), -low);
+  EXPECT_EQ(axis_base(0, 1, {0, 0.5, 1}), 0);
+  EXPECT_EQ(axis_base(100, 101, {100, 100.5, 101}), 0);
 }
 
 TEST(ValueAxis, HasRoundValuesInTheRange) {

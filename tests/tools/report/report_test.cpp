@@ -316,6 +316,31 @@ TEST_F(Report, DescribesWhatIsLeftOfADamagedFile) {
   EXPECT_NE(file("cut.html").find("The file is damaged"), std::string::npos);
 }
 
+// Of the levels, those before the damage are shown.
+TEST_F(Report, ShowsWhatIsBeforeADamagedFrame) {
+  expect_success(reeb({"generate", "scan", "--triangles", "400k", "-o", "scan.ply"}));
+  expect_success(reeb({"compute", "scan.ply", "--quiet"}));
+  const std::string bytes = file("scan.reeb");
+  std::size_t shown = 0;
+  for (const double part : {0.1, 0.3, 0.6, 0.9}) {
+    std::string damaged = bytes;
+    damaged[static_cast<std::size_t>(part * static_cast<double>(bytes.size()))] ^= 1;
+    write("damaged.reeb", damaged);
+    const Outcome outcome = reeb({"report", "damaged.reeb", "--nodes", "100k", "-o", "damaged.html", "--force"});
+    expect_success(outcome);
+    EXPECT_NE(outcome.error.find(" cannot be read: "), std::string::npos) << outcome.error;
+    const std::string page = file("damaged.html");
+    EXPECT_NE(page.find(" cannot be read: "), std::string::npos);
+    const Json skeleton = data(page)["skeleton"];
+    if (skeleton.is_null()) continue;
+    ++shown;
+    const std::uint64_t nodes = skeleton["levels"]["nodes"][0];
+    const Outcome level = reeb({"extract", "damaged.reeb", "--nodes", std::to_string(nodes), "-o", "l.rg", "--force"});
+    EXPECT_EQ(level.exit_code, 0) << level.error;
+  }
+  EXPECT_GE(shown, 2u);
+}
+
 TEST_F(Report, ShowsTheLevelsThatACutFileHas) {
   expect_success(reeb({"generate", "scan", "--triangles", "400k", "-o", "scan.ply"}));
   expect_success(reeb({"compute", "scan.ply", "--quiet"}));

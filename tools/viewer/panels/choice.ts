@@ -1,5 +1,5 @@
 // The feature that is lit up, and what is said of nodes and arcs.
-import { shortNumber } from '../../web/data.js'
+import { digitsFor, shortNumber, thresholdText } from '../../web/data.js'
 import { kKinds, kNoArc } from '../drawing/picture'
 import type { Found } from '../drawing/picture'
 import type { VersionContent } from '../reading/loaded_graph'
@@ -15,15 +15,16 @@ export function kindOf({ up, down, isIn }: VersionContent, node: number): number
 }
 
 export function describe({ graph, header, content }: OpenFile, { node, arc }: Found): string {
+  const valueText = (at: number) => shortNumber(graph.value[at], digitsFor(header.min, header.max))
   if (node !== undefined) {
     const names = { none: '', min: 'Minimum', max: 'Maximum', saddle: 'Fork', isolated: 'Isolated point' }
     const kind = names[kKinds[kindOf(content, node)]]
-    return `${kind} at vertex ${graph.vertex[node]}\nvalue ${shortNumber(graph.value[node])}\n${content.down[node]} down, ${content.up[node]} up`
+    return `${kind} at vertex ${graph.vertex[node]}\nvalue ${valueText(node)}\n${content.down[node]} down, ${content.up[node]} up`
   }
   const [lo, hi] = [graph.lo[arc!], graph.hi[arc!]]
   const died = graph.died[arc!]
-  const end = died > header.steps ? 'stays at all levels' : `changes above threshold ${shortNumber(graph.persistenceOf(died))}`
-  return `Arc from vertex ${graph.vertex[lo]} to ${graph.vertex[hi]}\nvalues ${shortNumber(graph.value[lo])} to ${shortNumber(graph.value[hi])}\n${end}`
+  const end = died > header.steps ? 'stays at all levels' : `changes above threshold ${thresholdText(graph.persistenceOf(died))}`
+  return `Arc from vertex ${graph.vertex[lo]} to ${graph.vertex[hi]}\nvalues ${valueText(lo)} to ${valueText(hi)}\n${end}`
 }
 
 // Null: nothing.

@@ -2,8 +2,8 @@
 import { count } from '../../web/data.js'
 import { take } from '../../web/note.js'
 import { backdropBytes } from '../drawing/backdrop'
-import { bytesText, element, percentOf, thresholdText } from './page'
-import { rangeOf, thresholdOf, viewsOf } from './state'
+import { bytesText, element, percentOf } from './page'
+import { levelText, rangeOf, thresholdOf, viewsOf } from './state'
 import type { OpenFile, Viewer } from './state'
 
 const drawn = element('drawn')
@@ -25,7 +25,7 @@ export function showCounts(viewer: Viewer, file: OpenFile) {
   for (const { place } of viewsOf(viewer))
     place.setAttribute('aria-label', `${place.id === 'space' ? 'The skeleton in space' : 'The graph by value'}: ${texts}`)
   const threshold = element<HTMLInputElement>('threshold')
-  const level = thresholdText(thresholdOf(file, content.version))
+  const level = levelText(file, thresholdOf(file, content.version))
   // What is wrong with the box stays there.
   if (!threshold.hasAttribute('aria-invalid')) take(threshold, threshold.value === level ? '' : `level ${level}`)
   element('loaded').textContent = loadedText(file)

@@ -1,14 +1,14 @@
 // The threshold: by the slider, as a number, or from the table of levels.
-import { shortNumber } from '../../web/data.js'
+import { thresholdText } from '../../web/data.js'
 import { kNoThreshold, refuse, take } from '../../web/note.js'
 import { makeTable } from '../../web/table.js'
 import type { Header } from '../reading/header'
 import { saveState } from './address'
 import { refresh } from './content'
 import { showCounts } from './counts'
-import { announce, bytesText, element, percentOf, say, thresholdText } from './page'
+import { announce, bytesText, element, percentOf, say } from './page'
 import { readPairs } from './plots_panel'
-import { rangeOf } from './state'
+import { levelText, rangeOf } from './state'
 import type { OpenFile, Viewer } from './state'
 
 const kCountMilliseconds = 100 // between two texts about what was read
@@ -37,7 +37,8 @@ function placeOf(header: Header, threshold: number): number {
 export async function setThreshold(viewer: Viewer, file: OpenFile, threshold: number, typed: string | null = null): Promise<void> {
   const { session, graph, reader } = file
   slider.value = String(placeOf(file.header, threshold))
-  input.value = typed ?? thresholdText(threshold)
+  const showInput = () => (input.value = typed ?? levelText(file, threshold))
+  showInput()
   take(input)
   let shown = 0
   const changed = () => {
@@ -54,12 +55,15 @@ export async function setThreshold(viewer: Viewer, file: OpenFile, threshold: nu
   try {
     await reading
     if (viewer.file !== file) return
+    if (document.activeElement !== input) showInput() // now other levels are known
     refresh(viewer, file)
     if (reader.damage) say(reader.damage)
     await readPairs(viewer, file)
     saveState(viewer)
   } catch (error) {
-    if (viewer.file === file) say(error, () => void setThreshold(viewer, file, threshold))
+    if (viewer.file !== file) return
+    showCounts(viewer, file) // nothing is being read any more
+    say(error, () => void setThreshold(viewer, file, threshold))
   }
 }
 
@@ -96,7 +100,7 @@ export function readBudget(viewer: Viewer, file: OpenFile) {
 export function showLevels(viewer: Viewer, file: OpenFile) {
   const { levels } = file.header
   const rows = levels.map(({ threshold, nodes, arcs, fileBytes }) => [
-    shortNumber(threshold), `${percentOf(threshold, rangeOf(file.header))} %`,
+    thresholdText(threshold), `${percentOf(threshold, rangeOf(file.header))} %`,
     nodes.toLocaleString('en'), arcs.toLocaleString('en'), bytesText(fileBytes), '',
   ])
   const table = makeTable('Levels', ['threshold', 'of range', 'nodes', 'arcs', 'bytes read', 'show'], rows)
@@ -105,7 +109,7 @@ export function showLevels(viewer: Viewer, file: OpenFile) {
     button.type = 'button'
     button.textContent = 'Show'
     button.dataset.level = String(i)
-    button.setAttribute('aria-label', `Show the level of threshold ${shortNumber(threshold)}`)
+    button.setAttribute('aria-label', `Show the level of threshold ${thresholdText(threshold)}`)
     button.addEventListener('click', () => void setThreshold(viewer, file, threshold))
     table.tBodies[0].rows[i].cells[5].append(button)
   })

@@ -1,5 +1,5 @@
 // From a source to a file that is open.
-import { count, distinctNumbers } from '../../web/data.js'
+import { count, digitsFor, shortNumber } from '../../web/data.js'
 import { frameOf } from '../drawing/shapes'
 import { FormatError } from '../reading/bytes'
 import type { Header } from '../reading/header'
@@ -114,7 +114,8 @@ function openFile(session: Session, { threshold }: State): OpenFile {
 // Ends when there is a picture.
 async function showFile(viewer: Viewer, file: OpenFile, { coloring, camera }: State) {
   const { header } = file
-  const [least, most] = distinctNumbers([header.min, header.max])
+  const digits = digitsFor(header.min, header.max)
+  const [least, most] = [header.min, header.max].map((value) => shortNumber(value, digits))
   subtitle.textContent =
     `${header.name} from ${least} to ${most}; full graph: ${count(header.nodes, 'node')}, ` +
     `${count(header.arcs, 'arc')}, ${count(header.components, 'component')}, ${count(header.loops, 'loop')}`

@@ -1,5 +1,4 @@
 // What all parts of the page use: its elements, its messages, and numbers as text.
-import { shortNumber } from '../../web/data.js'
 import { FormatError } from '../reading/bytes'
 import { SourceError } from '../reading/source'
 
@@ -30,7 +29,5 @@ export function say(error: unknown, again: (() => void) | null = null) {
 
 export const bytesText = (bytes: number) =>
   bytes < 2 ** 20 ? `${(bytes / 2 ** 10).toFixed(1)} KiB` : `${(bytes / 2 ** 20).toFixed(1)} MiB`
-
-export const thresholdText = (threshold: number) => (threshold > 0 && threshold < 1e-300 ? 'above 0' : shortNumber(threshold))
 
 export const percentOf = (part: number, range: number) => Number((range > 0 ? (100 * part) / range : 0).toPrecision(3))

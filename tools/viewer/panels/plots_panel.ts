@@ -33,6 +33,12 @@ async function showPairs(viewer: Viewer, file: OpenFile) {
   }
 }
 
+// What would load more pairs.
+function moreText({ session }: OpenFile): string {
+  if (session.end === 'damage') return 'the rest of the file cannot be read'
+  return session.end === 'budget' ? 'raise the budget to load more' : 'lower the threshold to load more'
+}
+
 function showPlots(viewer: Viewer, file: OpenFile, pairs: Pairs, known: number) {
   const { header } = file
   const all = pairsBySize(file, pairs)
@@ -42,13 +48,13 @@ function showPlots(viewer: Viewer, file: OpenFile, pairs: Pairs, known: number) 
   let loops = 0
   for (const pair of lasting) if (pair.drawn[0] === 'Ext1') steps.push([sizeOf(pair), ++loops])
   const made = [
-    steps.length > 0 ? loopsPlot(steps, rangeOf(header), known) : null,
+    steps.length > 0 ? loopsPlot(steps, rangeOf(header), known, moreText(file)) : null,
     persistenceDiagram(file.marks.map(({ drawn }) => drawn), header.min, header.max, lasting.length),
   ].filter((figure) => figure !== null)
   element('figures').replaceChildren(...made)
   nameMarks()
   const zeros = all.length - lasting.length
-  element('plots-message').textContent = plotsText(made.length > 0, all.length, header.pairs, zeros)
+  element('plots-message').textContent = plotsText(made.length > 0, all.length, header.pairs, zeros, moreText(file))
   showContent(viewer, file)
   setChoice(viewer, file, file.choice)
 }
@@ -77,14 +83,14 @@ function nameMarks() {
   )
 }
 
-function plotsText(hasPlots: boolean, pairs: number, ofFile: number, zeros: number): string {
+function plotsText(hasPlots: boolean, pairs: number, ofFile: number, zeros: number, more: string): string {
   if (pairs === 0) return 'The file has no pairs, so there is nothing to plot.'
   const texts = []
   if (!hasPlots) texts.push('There are no pairs of positive persistence to plot.')
   if (pairs < ofFile)
     texts.push(
       `Of ${count(ofFile, 'pair')}, the plots have the ${pairs.toLocaleString('en')} most persistent ones, ` +
-        'whose nodes are loaded; lower the threshold to load more.',
+        `whose nodes are loaded; ${more}.`,
     )
   if (hasPlots && zeros > 0) texts.push(`${count(zeros, 'pair')} of persistence 0 ${zeros === 1 ? 'is' : 'are'} not drawn.`)
   return texts.join(' ')

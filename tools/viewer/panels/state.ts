@@ -1,6 +1,7 @@
 // What the page shows: one object, which its parts are given. What belongs to a file ends with it: another file begins
 // with a new OpenFile.
 import type { Camera } from '../../web/camera.js'
+import { thresholdText } from '../../web/data.js'
 import type { Backdrop } from '../drawing/backdrop'
 import type { Picture } from '../drawing/picture'
 import type { Frame } from '../drawing/shapes'
@@ -85,9 +86,21 @@ export const viewsOf = ({ space, flat }: Viewer) => [space, flat].filter((view) 
 
 export const rangeOf = ({ min, max }: Header) => max - min
 
-// The threshold from which on a version is shown.
+function nextUp(value: number): number {
+  const next = new Float64Array([value])
+  new BigInt64Array(next.buffer)[0] += 1n
+  return next[0]
+}
+
+// The least threshold at which a version is shown.
 export function thresholdOf({ header, graph }: OpenFile, version: number): number {
   const line = header.levels.find((level) => level.version === version)
   if (line) return line.threshold
-  return version === 0 ? 0 : graph.persistenceOf(version)
+  return version === 0 ? 0 : nextUp(graph.persistenceOf(version))
+}
+
+// A threshold as a number that yields the same version, of those that were read.
+export function levelText({ graph }: OpenFile, threshold: number): string {
+  const version = graph.versionAt(threshold)
+  return thresholdText(threshold, (number) => graph.versionAt(number) === version)
 }

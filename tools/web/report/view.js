@@ -1,7 +1,7 @@
 // The interactive skeleton: slider, threshold, picture, hovering, and its table.
 import { Camera, control } from '../camera.js'
 import { onThemeChange } from '../colors.js'
-import { count, distinctNumbers, shortNumber } from '../data.js'
+import { count, digitsFor, shortNumber, thresholdText } from '../data.js'
 import { SvgPicture } from './flat.js'
 import { kNoThreshold, refuse, take } from '../note.js'
 import { WebglPicture } from './scene.js'
@@ -64,9 +64,9 @@ export class SkeletonView {
       this.redraw()
     })
     const { min, size } = this.skeleton.values
-    const [least, most] = distinctNumbers([min, min + size])
-    document.getElementById('scale-min').textContent = least
-    document.getElementById('scale-max').textContent = most
+    this.digits = digitsFor(min, min + size)
+    document.getElementById('scale-min').textContent = shortNumber(min, this.digits)
+    document.getElementById('scale-max').textContent = shortNumber(min + size, this.digits)
   }
 
   // The finest one that is not too crowded to read. What no level loses, as two nodes of each component, does not count.
@@ -92,7 +92,7 @@ export class SkeletonView {
     const { threshold } = this.skeleton.levels
     this.content = this.skeleton.at(level)
     this.slider.value = level
-    const text = threshold[level] > 0 && threshold[level] < 1e-300 ? 'above 0' : shortNumber(threshold[level])
+    const text = thresholdText(threshold[level], (number) => this.skeleton.levelAt(number) === level)
     this.input.value = typed ?? text
     take(this.input, this.input.value === text ? '' : `level ${text}`)
     const percent = this.skeleton.values.size > 0 ? (100 * threshold[level]) / this.skeleton.values.size : 0
@@ -189,14 +189,14 @@ export class SkeletonView {
   describeNode({ node, kind }) {
     const names = { min: 'Minimum', max: 'Maximum', saddle: 'Fork', isolated: 'Isolated point' }
     const { vertex, value } = this.skeleton.nodes
-    return `${names[kind]} at vertex ${vertex[node]}\nvalue ${shortNumber(value[node])}\n${this.content.down.get(node) ?? 0} down, ${this.content.up.get(node) ?? 0} up`
+    return `${names[kind]} at vertex ${vertex[node]}\nvalue ${shortNumber(value[node], this.digits)}\n${this.content.down.get(node) ?? 0} down, ${this.content.up.get(node) ?? 0} up`
   }
 
   describeArc(arc) {
     const { vertex, value } = this.skeleton.nodes
     const [lo, hi] = [this.skeleton.arcs.lo[arc], this.skeleton.arcs.hi[arc]]
     const end = this.skeleton.endOf(arc)
-    return `Arc from vertex ${vertex[lo]} to ${vertex[hi]}\nvalues ${shortNumber(value[lo])} to ${shortNumber(value[hi])}\n${end === null ? 'stays at all levels' : `changes at threshold ${shortNumber(end)}`}`
+    return `Arc from vertex ${vertex[lo]} to ${vertex[hi]}\nvalues ${shortNumber(value[lo], this.digits)} to ${shortNumber(value[hi], this.digits)}\n${end === null ? 'stays at all levels' : `changes at threshold ${thresholdText(end)}`}`
   }
 
   fillTable() {
@@ -205,7 +205,7 @@ export class SkeletonView {
     const rows = this.content.arcs.slice(0, kMostRows).map((arc) => {
       const [lo, hi] = [this.skeleton.arcs.lo[arc], this.skeleton.arcs.hi[arc]]
       const end = this.skeleton.endOf(arc)
-      return [vertex[lo], vertex[hi], shortNumber(value[lo]), shortNumber(value[hi]), end === null ? 'never' : shortNumber(end)]
+      return [vertex[lo], vertex[hi], shortNumber(value[lo], this.digits), shortNumber(value[hi], this.digits), end === null ? 'never' : thresholdText(end)]
     })
     const some = this.content.arcs.length > rows.length ? `The first ${rows.length} of ` : ''
     const caption = `${some}${count(this.content.arcs.length, 'arc')} of this level`
