@@ -28,7 +28,7 @@ removes noise, finds defects, repairs and segments meshes, and draws graphs.")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libreeb-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
-  "libstdc++-12-dev | libstdc++-dev, libzstd-dev, liblz4-dev, zlib1g-dev, libpng-dev, libexpat1-dev, libtbb-dev, libboost-iostreams-dev")
+  "libstdc++-12-dev | libstdc++-dev, libzstd-dev, liblz4-dev, zlib1g-dev, libpng-dev, libexpat1-dev, libtbb-dev, libboost-iostreams-dev, pkg-config")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "The static C++20 library of the program reeb, its headers, and its files for
 CMake and pkg-config: whole runs on files of any size, graphs that grow while
 a mesh is made, and a reader that loads graphs level by level.")

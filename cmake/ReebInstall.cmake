@@ -10,8 +10,15 @@ if(REEB_PROGRAM)
     # Finds them wherever the prefix is moved.
     file(RELATIVE_PATH libraries "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
     set_target_properties(reeb_program PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
+    if(TARGET reeb_mpi)
+      set_target_properties(reeb_mpi PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
+    endif()
   endif()
   install(TARGETS reeb_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  if(TARGET reeb_mpi)
+    # Of no Debian package: it needs the MPI that it was built with.
+    install(TARGETS reeb_mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mpi)
+  endif()
   if(REEB_WEB)
     install(FILES "${PROJECT_BINARY_DIR}/web/viewer.html" DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/reeb
       COMPONENT program)

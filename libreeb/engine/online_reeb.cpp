@@ -15,6 +15,8 @@
 namespace reeb {
 namespace {
 
+constexpr std::uint32_t kMostBuckets = 1u << 20;
+
 // Keeps settled nodes and arcs, for users who want the whole graph in memory.
 class KeepingSink : public GraphSink {
  public:
@@ -146,7 +148,13 @@ class OnlineReeb::Impl {
 };
 
 OnlineReeb::OnlineReeb() : OnlineReeb(Options{}) {}
-OnlineReeb::OnlineReeb(Options options, GraphSink* sink) : impl_(std::make_unique<Impl>(options, sink)) {}
+OnlineReeb::OnlineReeb(Options options, GraphSink* sink) {
+  if (!(options.noise_below >= 0))
+    throw Error(ErrorKind::kUsage, "noise_below is not a number of 0 or more", "give a threshold like 0.001");
+  if (options.buckets > kMostBuckets)
+    throw Error(ErrorKind::kUsage, "there can be at most 2^20 buckets", "choose fewer, for instance 64");
+  impl_ = std::make_unique<Impl>(options, sink);
+}
 OnlineReeb::~OnlineReeb() = default;
 OnlineReeb::OnlineReeb(OnlineReeb&&) noexcept = default;
 OnlineReeb& OnlineReeb::operator=(OnlineReeb&&) noexcept = default;

@@ -39,11 +39,11 @@ class OnlineReeb {
     // Leaves of less persistence are removed as soon as they are certain to be noise; the others stay.
     double noise_below = 0;
     // The values so far span this number of buckets of the embedding, or up to twice that number; at most 2^20.
-    // 0: no embedding. Only a sink gets buckets.
+    // 0: no embedding. Only a sink gets buckets, and positions of nodes.
     std::uint32_t buckets = 0;
   };
 
-  // Settled nodes and arcs go to `sink`; without one they are kept here.
+  // Settled nodes and arcs go to `sink`; without one they are kept here. THROWS: Error{kUsage} of bad options.
   OnlineReeb();
   explicit OnlineReeb(Options options, GraphSink* sink = nullptr);
   ~OnlineReeb();

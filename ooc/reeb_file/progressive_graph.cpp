@@ -1,6 +1,7 @@
 #include "ooc/reeb_file/progressive_graph.h"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 #include <vector>
 
@@ -44,9 +45,21 @@ class ProgressiveGraph::Impl {
   void apply(Change change, std::uint32_t version);
   void add_reference(std::uint32_t node);
   void drop_reference(std::uint32_t node);
+  // A change is made as a whole, even if the listener throws within it.
+  template <class Call>
+  void tell(const Call& call) {
+    if (listener_ == nullptr) return;
+    try {
+      call(*listener_);
+    } catch (...) {
+      failure_ = std::current_exception();
+      listener_ = nullptr;
+    }
+  }
 
   const FrameFile& file_;
   GraphListener* listener_;
+  std::exception_ptr failure_;  // of the listener, not yet thrown
   bool loaded_ = false;
   std::uint32_t version_ = 0;
   std::vector<Node> nodes_;  // by file index
@@ -76,6 +89,7 @@ void ProgressiveGraph::Impl::go_to_version(std::uint32_t version) {
   if (loaded_ && version == version_) return;
   file_.require_version(version);
   apply(gather(version), version);
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
 ProgressiveGraph::Impl::Change ProgressiveGraph::Impl::gather(std::uint32_t version) const {
@@ -154,11 +168,11 @@ void ProgressiveGraph::Impl::apply(Change change, std::uint32_t version) {
   for (std::size_t i = old_arcs; i < arcs_.size(); ++i) {
     add_reference(arcs_[i].lo);
     add_reference(arcs_[i].hi);
-    if (listener_ != nullptr) listener_->arc_added(arcs_[i].record, arcs_[i].lo, arcs_[i].hi);
+    tell([&](GraphListener& listener) { listener.arc_added(arcs_[i].record, arcs_[i].lo, arcs_[i].hi); });
   }
   std::erase_if(arcs_, [&](const Arc& arc) {
     if (arc.born <= version && version < arc.died) return false;
-    if (listener_ != nullptr) listener_->arc_removed(arc.record);
+    tell([&](GraphListener& listener) { listener.arc_removed(arc.record); });
     drop_reference(arc.lo);
     drop_reference(arc.hi);
     return true;
@@ -175,13 +189,13 @@ void ProgressiveGraph::Impl::apply(Change change, std::uint32_t version) {
 void ProgressiveGraph::Impl::add_reference(std::uint32_t node) {
   if (nodes_[node].degree++ != 0) return;
   ++node_count_;
-  if (listener_ != nullptr) listener_->node_added(node, nodes_[node].place);
+  tell([&](GraphListener& listener) { listener.node_added(node, nodes_[node].place); });
 }
 
 void ProgressiveGraph::Impl::drop_reference(std::uint32_t node) {
   if (--nodes_[node].degree != 0) return;
   --node_count_;
-  if (listener_ != nullptr) listener_->node_removed(node);
+  tell([&](GraphListener& listener) { listener.node_removed(node); });
 }
 
 std::uint64_t ProgressiveGraph::Impl::memory_bytes() const {

@@ -29,7 +29,8 @@ class GraphListener {
 // MEMORY:  what level_memory says for the level, and the nodes of at most one further frame.
 // THREADS: one at a time; several objects may share a file. The listener is called by the thread that moves
 //          the graph, and must not move it.
-// THROWS:  as ReebFile; then the level is unchanged.
+// THROWS:  as ReebFile; then the level is unchanged. What the listener throws, once the level has changed as it should;
+//          that listener is told nothing more.
 class ProgressiveGraph {
  public:
   // Both must outlive this; `listener` may be null.

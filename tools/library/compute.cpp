@@ -21,6 +21,7 @@ std::string no_sidecar(const std::string& path, const MeshInfo& info, const Comp
   if (path == "-") return what + "there is no file beside which it would lie";
   if (info.finalizes) return what + "this stream finalizes its vertices itself";
   if (info.grid) return what + "an image needs none";
+  if (options.chunk_triangles != 0) return what + "it is for chunks of the usual size, and --chunk was given";
   return what + "this run did not look for the last uses of vertices";
 }
 
@@ -72,6 +73,7 @@ std::vector<ComputeResult> compute(const std::string& path, std::span<const std:
 
 std::vector<ComputeResult> compute(const MeshOpener& mesh, std::span<const std::string> functions,
                                    std::span<const std::string> outputs, const ComputeOptions& options) {
+  if (!mesh) throw Error(ErrorKind::kUsage, "there is no mesh", "name what opens it");
   return compute_all(mesh, "-", functions, outputs, options);
 }
 

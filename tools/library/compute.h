@@ -19,6 +19,7 @@ using ooc::ComputeProgress;
 using ooc::ComputeResult;
 
 inline constexpr std::uint32_t kMostBuckets = 1u << 20;
+inline constexpr unsigned kMostThreads = 1024;
 
 struct ComputeOptions {
   std::uint64_t memory_bytes = ~std::uint64_t{0};  // what the run may use; default: no limit
@@ -79,7 +80,8 @@ std::vector<ComputeResult> compute(const std::string& path, std::span<const std:
 using MeshOpener = std::function<std::unique_ptr<MeshReader>(const ReadOptions&)>;
 
 // The same for a mesh that is in no file, as in arrays of the caller. Such a run keeps no sidecar and cannot be
-// resumed. options.format and options.image have no effect.
+// resumed. options.format and options.image have no effect. A reader that breaks a rule of mesh_reader.h is an
+// Error{kBadInput}.
 std::vector<ComputeResult> compute(const MeshOpener& mesh, std::span<const std::string> functions,
                                    std::span<const std::string> outputs, const ComputeOptions& options = {});
 

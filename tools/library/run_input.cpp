@@ -8,6 +8,7 @@
 #include "io/formats/format_detection.h"
 #include "io/formats/open_grid.h"
 #include "libreeb/base/error.h"
+#include "tools/library/held_mesh.h"
 
 namespace reeb {
 namespace {
@@ -93,8 +94,8 @@ void RunInput::open(std::span<const std::string> functions, std::unique_ptr<io::
   reading_.properties = io::needed_properties(specs);
   reading_.temp_folder = options_.temp_dir;
   reading_.value_of_image = functions[0].empty();
-  mesh_.reader =
-      held_ ? held_(reading_) : io::open_mesh(*file_, std::move(content), reading_, options_.image, options_.format);
+  mesh_.reader = held_ ? open_held(held_, reading_)
+                       : io::open_mesh(*file_, std::move(content), reading_, options_.image, options_.format);
   info_ = mesh_.reader->info();
   for (std::size_t f = 0; f < specs.size(); ++f)
     if (functions[f].empty()) specs[f] = io::default_function(info_);
@@ -116,7 +117,7 @@ void RunInput::open(std::span<const std::string> functions, std::unique_ptr<io::
 }
 
 std::unique_ptr<MeshReader> RunInput::read_again(const ReadOptions& options, bool renumber) const {
-  if (held_) return held_(options);
+  if (held_) return open_held(held_, options);
   io::ImageOptions image = options_.image;
   image.renumber = renumber;
   return io::open_mesh(*file_, file_->open(), options, image, options_.format);

@@ -15,6 +15,11 @@ void check_limits(const ComputeOptions& options) {
   if (options.buckets > kMostBuckets)
     throw Error(ErrorKind::kUsage, "there can be at most " + std::to_string(kMostBuckets) + " buckets",
                 "choose fewer, for instance 64");
+  if (options.threads > kMostThreads)
+    throw Error(ErrorKind::kUsage, "there can be at most " + std::to_string(kMostThreads) + " threads",
+                "choose fewer, or 0 for those of the machine");
+  if (!(options.checkpoint_seconds >= 0))
+    throw Error(ErrorKind::kUsage, "the seconds between checkpoints are not a number of 0 or more", "choose 2");
 }
 
 ooc::ComputeOptions run_options(const ComputeOptions& options) {

@@ -50,6 +50,8 @@ void require_graph_file(const std::string& path, const std::string& hint_of_mesh
   const std::string what = mesh_or_image(*source, path);
   if (what.empty()) {
     const std::string known(io::foreign_format(source->view(0)).name);
+    if (known == "a Reeb graph")
+      throw Error(ErrorKind::kBadInput, "the file ends within its header", "the file was cut; make it again").at(path);
     throw Error(ErrorKind::kBadInput, "this is not a Reeb graph" + (known.empty() ? known : ", but " + known), hint)
         .at(path);
   }

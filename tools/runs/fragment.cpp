@@ -12,6 +12,7 @@
 #include "libreeb/base/printable.h"
 #include "tools/library/fragment.h"
 #include "tools/program/input_kind.h"
+#include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/signals.h"
 #include "tools/program/wrapping.h"
@@ -74,6 +75,9 @@ void run_fragment(FragmentArguments arguments) {
     throw Error(ErrorKind::kUsage, "--scan and --shared exclude each other",
                 "make the names of all parts with --scan, then each fragment with --shared");
   const std::vector<std::string> outputs = outputs_of(arguments, choice);
+  for (const std::string& output : outputs)
+    note_other_suffix(output, {arguments.scan ? ".names" : ".fragment"},
+                      arguments.scan ? "a file of names" : "a fragment");
   take_denoise(arguments);
   options.opened = [&](const MeshInfo& info) {
     if (!arguments.quiet) print_line(printable(arguments.mesh + ": " + describe(info)));

@@ -251,6 +251,13 @@ TEST(OnlineReebMisuse, IsRefusedAndLeavesTheGraphAlone) {
   }
 }
 
+TEST(OnlineReebMisuse, BadOptionsAreRefused) {
+  for (const double noise : {-1.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW(OnlineReeb({.noise_below = noise}), Error);
+  EXPECT_THROW(OnlineReeb({.buckets = (1u << 20) + 1}), Error);
+  EXPECT_NO_THROW(OnlineReeb({.buckets = 1u << 20}));
+}
+
 TEST(OnlineReebMisuse, NothingIsAddedAfterFinish) {
   OnlineReeb engine;
   const VertexId a = engine.add_vertex(0), b = engine.add_vertex(1);

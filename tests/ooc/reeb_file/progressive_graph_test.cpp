@@ -76,6 +76,45 @@ TEST(ProgressiveGraph, SmallFilesEverywhere) {
   }
 }
 
+// The change is made as a whole, and later ones, too.
+TEST(ProgressiveGraph, AListenerThatThrowsChangesNothing) {
+  class Thrower : public GraphListener {
+   public:
+    explicit Thrower(int calls) : calls_(calls) {}
+    void node_added(std::uint32_t, const SettledNode&) override { count(); }
+    void node_removed(std::uint32_t) override { count(); }
+    void arc_added(std::uint64_t, std::uint32_t, std::uint32_t) override { count(); }
+    void arc_removed(std::uint64_t) override { count(); }
+    int thrown = 0;
+
+   private:
+    void count() {
+      if (calls_-- > 0) return;
+      ++thrown;
+      throw 7;
+    }
+    int calls_;
+  };
+  const MadeUp made = MadeUpMaker(3).make(25, 60, 20);
+  const Scratch scratch;
+  const std::string path = scratch.path() + "/a.reeb";
+  write_hierarchy_file(path, {}, made.graph, made.hierarchy);
+  const ReebFile file(path);
+  const auto last = static_cast<std::uint32_t>(made.hierarchy.persistence.size());
+  for (int calls = 0; calls < 60; ++calls) {
+    Thrower thrower(calls);
+    ProgressiveGraph graph(file, &thrower);
+    for (const std::uint32_t version : {last, 0u, last / 2, last, 1u}) {
+      try {
+        graph.go_to_version(version);
+      } catch (int) {
+      }
+      ASSERT_EQ(graph.graph(), naive_level(made, version)) << calls << " calls, version " << version;
+    }
+    EXPECT_EQ(thrower.thrown, 1) << calls;
+  }
+}
+
 TEST(ProgressiveGraph, ManyFrames) { wander(MadeUpMaker(4).make(20'000, 120'000, 200'000), 12, 4, false); }
 
 // Given a threshold, nodes or memory, it goes to the level that the file itself loads for them.

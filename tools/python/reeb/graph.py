@@ -526,8 +526,9 @@ def open(path, *, threshold=None, nodes=None, memory=None, listener=None):
 
 
 def _open_result(result, path, content):
-    graph = Graph._make(_Store(path, content), function=result["function"], result=result)
-    return graph
+    store = _Store(path, content)
+    store.file()  # another run may replace the file before it is needed
+    return Graph._make(store, function=result["function"], result=result)
 
 
 def _snapshot(arrays):

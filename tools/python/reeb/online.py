@@ -27,7 +27,8 @@ class Online:
 
         Args:
             values: (n,) numbers, the function.
-            positions: (n, 3) numbers, or none.
+            positions: (n, 3) numbers, or none. They are checked, but a snapshot does not have them: its nodes are
+                named by their vertices.
 
         Returns:
             (n,) int64: their indices, which count from 0.
