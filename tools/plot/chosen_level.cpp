@@ -57,6 +57,16 @@ void for_each_pair_of(const ooc::ReebFile& file, std::uint32_t version,
   });
 }
 
-std::string graph_name(const ooc::ReebFile& file) { return std::filesystem::path(file.path()).stem().string(); }
+std::string graph_name(const ooc::ReebFile& file) {
+  constexpr std::size_t kMost = 48, kPart = (kMost - 3) / 2;
+  std::string name = std::filesystem::path(file.path()).stem().string();
+  if (name.size() <= kMost) return name;
+  // Not within a character of UTF-8.
+  const auto begins_character = [&](std::size_t at) { return (static_cast<unsigned char>(name[at]) & 0xc0) != 0x80; };
+  std::size_t end = kPart, begin = name.size() - kPart;
+  while (end > 0 && !begins_character(end)) --end;
+  while (begin < name.size() && !begins_character(begin)) ++begin;
+  return name.substr(0, end) + "..." + name.substr(begin);
+}
 
 }  // namespace reeb::tools

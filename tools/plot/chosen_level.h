@@ -37,7 +37,7 @@ void note_large_threshold(const ooc::ReebFile& file, const std::string& threshol
 void for_each_pair_of(const ooc::ReebFile& file, std::uint32_t version,
                       const std::function<void(const ooc::PairKeys&)>& visit);
 
-// "dragon" for dirs/dragon.reeb.
+// "dragon" for dirs/dragon.reeb; of a name that is too long for a title, without its middle.
 std::string graph_name(const ooc::ReebFile& file);
 
 }  // namespace reeb::tools

@@ -194,6 +194,25 @@ TEST_F(Plot, ShowsAnyName) {
   }
 }
 
+// Of a long one the ends, and never a part of a character.
+TEST_F(Plot, ShortensLongNames) {
+  REEB_NEEDS("gnuplot");
+  for (std::size_t length = 60; length < 64; ++length) {
+    std::string name = "begin-";
+    while (name.size() < length) name += "ä";
+    name += std::string(length - 60, '_') + "-end";
+    std::filesystem::copy_file(in_folder("scan.reeb"), in_folder(name + ".reeb"));
+    for (const std::string kind : {"loops", "skeleton"}) {
+      expect_success(reeb({"plot", name + ".reeb", "--kind", kind, "--nodes", "50", "-o", kind + ".svg", "--force"}));
+      expect_valid(kind + ".svg");
+      const std::string picture = file(kind + ".svg");
+      EXPECT_EQ(picture.find(name), std::string::npos);
+      EXPECT_NE(picture.find("ä..."), std::string::npos);
+      EXPECT_NE(picture.find("-end, f = z"), std::string::npos);
+    }
+  }
+}
+
 TEST_F(Plot, DrawsSeveralFilesInOneChart) {
   REEB_NEEDS("gnuplot");
   expect_success(reeb({"compute", "scan.ply", "-f", "x", "-o", "x.reeb"}));
