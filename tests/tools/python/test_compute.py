@@ -146,6 +146,16 @@ def test_a_path_gives_what_the_program_gives(tmp_path):
     assert [float(line.split(",")[5]) for line in csv[1:]] == graph.pairs["persistence"].tolist()
 
 
+def test_a_graph_stays_that_of_its_run(tmp_path):
+    vertices, faces = torus()
+    output = tmp_path / "t.reeb"
+    first = reeb.compute(vertices, faces, f="z", output=output)
+    second = reeb.compute(vertices, faces, f="x", output=output, force=True)
+    assert first == reeb.compute(vertices, faces, f="z")
+    assert second == reeb.compute(vertices, faces, f="x")
+    assert first != second
+
+
 def test_several_functions_and_outputs(tmp_path):
     vertices, faces = torus()
     x, y = reeb.compute(vertices, faces, f=["x", "y"])
