@@ -139,7 +139,7 @@ export function niceTicks(least, most) {
   return values.map((value, i) => ({ at: (value - least) / (most - least), value, text: texts[i] }))
 }
 
-const kMostTickLetters = 9
+const kMostTickLetters = 7
 
 const kTypes = [
   ['Ord0', 'minima', 'M-4-3H4L0 4Z'],
@@ -157,10 +157,11 @@ export function persistenceDiagram(pairs, min, max, total) {
   const digits = digitsFor(min, max)
   // Where the range is small beside the values, differences fit beside the axis.
   const isLong = nice.length > 1 && nice.some(({ text }) => text.length > kMostTickLetters)
-  const unit = isLong ? 10 ** Math.floor(Math.log10(nice[1].value - nice[0].value)) : 1
+  const step = isLong ? nice[1].value - nice[0].value : 1
+  const unit = step < 1e-3 || step >= 1e6 ? 10 ** Math.floor(Math.log10(step)) : 1
   const difference = (value) => String(Number(((value - nice[0].value) / unit).toPrecision(3)))
   const ticks = nice.map(({ at, value, text }) => ({ at: 0.02 + 0.96 * at, text: isLong ? difference(value) : text }))
-  const less = isLong ? `, less ${nice[0].text}, in ${unit.toPrecision(1)}` : ''
+  const less = isLong ? `, less ${nice[0].text}${unit === 1 ? '' : `, in ${unit.toPrecision(1)}`}` : ''
   const part = (value) => 0.02 + (0.96 * (value - min)) / (max - min)
   const legend = kTypes.map(([type, name, shape]) =>
     `<span><svg viewBox="-6 -6 12 12" aria-hidden="true"><path class="${type}" d="${shape}"/></svg> ${name} (${type})</span>`)
