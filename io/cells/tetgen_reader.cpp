@@ -89,7 +89,10 @@ class TetgenInput final : public CellInput {
   Step next(CellHead& cell) override {
     if (nodes_read_ != node_head_.nodes) return Step::kVertices;
     if (cells_read_ != 0) cells_.skip_line();  // attributes
-    if (cells_read_ == cells_head_.cells) return Step::kEnd;
+    if (cells_read_ == cells_head_.cells) {
+      surplus_ = surplus_ || nodes_.more() || cells_.more();
+      return Step::kEnd;
+    }
     ++cells_read_;
     (void)read_count(cells_, "number of a cell");
     cell = cells_head_.each;
@@ -126,6 +129,10 @@ class TetgenInput final : public CellInput {
   }
 
   std::uint64_t bytes_read() const override { return nodes_.bytes_read() + cells_.bytes_read(); }
+  std::vector<std::string> warnings() const override {
+    if (!surplus_) return {};
+    return {"lines after the announced number of vertices or cells were ignored"};
+  }
 
  private:
   double real(const char* what) {
@@ -139,6 +146,7 @@ class TetgenInput final : public CellInput {
   MeshInfo info_;
   std::vector<std::size_t> columns_;  // attributes that are properties
   std::vector<double> attributes_;
+  bool surplus_ = false;
   std::uint64_t first_ = 1, nodes_read_ = 0, cells_read_ = 0;
 };
 

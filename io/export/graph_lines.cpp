@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -67,9 +68,11 @@ void write_vtk_point_data(const GraphView& view, const GraphFeatures& features, 
   write_point_array(
       view, "Int32", "Component", [&](std::size_t node) { return features.component[node]; },
       [&](std::size_t arc, const Bucket&) { return features.component[graph.lo[arc].value()]; }, out);
+  // VTK reads no infinity in text.
+  constexpr double kMost = std::numeric_limits<double>::max();
   write_point_array(
-      view, "Float64", "Persistence", [&](std::size_t node) { return Shortest{features.persistence[node]}; }, always(0),
-      out);
+      view, "Float64", "Persistence",
+      [&](std::size_t node) { return Shortest{std::min(features.persistence[node], kMost)}; }, always(0), out);
   if (view.has_spreads) {
     begin_array("Float64", "Radius", out);
     for (const double radius : all_radii(view)) out << Shortest{radius} << '\n';

@@ -133,8 +133,16 @@ class AsciiOffReader final : public OffReader {
       header.dimension = dimension_of(header.kind, declared);
     }
     header.vertices = count();
+    const std::uint64_t line = text_.line();
     header.faces = count();
-    text_.skip_line();  // the number of edges, which is often wrong
+    // The number of edges, which is often wrong, and often missing. Where each count has a line of its own, so has it.
+    const bool apart = text_.line() != line && !text_.more_on_line();
+    text_.skip_line();
+    if (apart && header.dimension > 1 && text_.more())
+      text_.plain_line([](PlainLine& numbers) {
+        std::uint64_t edges = 0;
+        return numbers.integer(edges);
+      });
     check_counts(header, text_.source(), text_.bytes().offset(), std::uint64_t{2} * header.dimension, 2,
                  text_.position());
     describe(header, text_.source());

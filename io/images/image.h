@@ -47,6 +47,7 @@ struct Image {
   // kOwn: from the content to the bytes of the values, and the least number of bytes that the content needs for them.
   std::function<std::unique_ptr<ByteInput>(std::unique_ptr<ContentSource>)> open_bytes;
   std::uint64_t least_bytes = 0;
+  bool commas = false;                       // separate numbers of text, too
   bool own_text = false;                     // those bytes are text
   std::optional<std::uint64_t> first_value;  // its offset, if the values are stored as they are
   bool from_start = false;                   // the content must be opened again for them

@@ -8,6 +8,7 @@
 #include "io/decoding/inflate_input.h"
 #include "io/images/value_stream.h"
 #include "io/images/voxel_type.h"
+#include "io/mesh/property_columns.h"
 #include "io/text/hints.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
@@ -74,7 +75,7 @@ class ImageReader final : public GridReader {
 
   std::vector<std::string> warnings() const override {
     std::vector<std::string> all = image_.warnings;
-    if (stream_->rounded() != 0) all.push_back(rounded_note(stream_->rounded()));
+    if (stream_->rounded() != 0) all.push_back(note_on_rounded_values(stream_->rounded()));
     if (trailing_) all.push_back("data after the last value were ignored");
     return all;
   }
@@ -192,11 +193,12 @@ class ImageReader final : public GridReader {
   std::unique_ptr<ValueStream> open(std::unique_ptr<ContentSource> source) const {
     if (image_.packing == Packing::kOwn) {
       auto bytes = image_.open_bytes(std::move(source));
-      if (image_.own_text) return text_values(std::move(bytes), image_.text_line, image_.text_column);
+      if (image_.own_text) return text_values(std::move(bytes), image_.text_line, image_.text_column, image_.commas);
       return binary_values(std::move(bytes), image_.type, image_.big_endian);
     }
     std::unique_ptr<ByteInput> bytes = std::make_unique<ContentBytes>(std::move(source), image_.offset);
-    if (image_.packing == Packing::kText) return text_values(std::move(bytes), image_.text_line, image_.text_column);
+    if (image_.packing == Packing::kText)
+      return text_values(std::move(bytes), image_.text_line, image_.text_column, image_.commas);
     if (image_.packing == Packing::kZlib) bytes = inflate(std::move(bytes));
     if (image_.packing == Packing::kHex) bytes = from_hex(std::move(bytes));
     char skipped[4096];

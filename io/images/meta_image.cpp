@@ -39,7 +39,11 @@ class MetaHeader {
     image_.packing = !binary_ ? Packing::kText : compressed_ ? Packing::kZlib : Packing::kPlain;
     take_position();
     take_header_size();
-    if (image_.data_file.empty()) {
+    // Within this file, HeaderSize is the place of the data whatever packs them.
+    if (image_.data_file.empty() && header_size_ > 0) {
+      image_.offset = static_cast<std::uint64_t>(header_size_);
+      image_.skip_bytes = 0;
+    } else if (image_.data_file.empty()) {
       image_.offset = text_.offset();
       image_.text_line = text_.line_number() + 1;
     }

@@ -285,6 +285,7 @@ class NrrdHeader {
     } else if (encoding_ == "txt" || encoding_ == "text" || encoding_ == "ascii") {
       encoding_ = "ascii";
       image.packing = Packing::kText;
+      image.commas = true;
     } else {
       fail_whole("data of the encoding " + in_quotes(encoding_) + " are not read");
     }

@@ -59,15 +59,18 @@ class BinaryValues final : public ValueStream {
 
 class TextValues final : public ValueStream {
  public:
-  TextValues(std::unique_ptr<ByteInput> text, std::uint64_t line, std::uint64_t column)
-      : text_(std::move(text)), buffer_(kBufferBytes), line_(line), column_(column) {}
+  TextValues(std::unique_ptr<ByteInput> text, std::uint64_t line, std::uint64_t column, bool commas)
+      : text_(std::move(text)), buffer_(kBufferBytes), comma_(commas ? ',' : '\n'), line_(line), column_(column) {}
 
   std::size_t read(std::span<double> values) override {
     std::size_t done = 0;
     while (done < values.size() && skip_blanks()) {
       const std::string_view word = token();
       const auto number = parse_number<double>(word);
-      if (!number.ok) fail(in_quotes(word) + " is not a number (a value should be here)");
+      if (!number.ok)
+        fail(in_quotes(word) + " is not a number (a value should be here)",
+             word.find(',') == word.npos ? kCutOrDamagedHereHint : "write decimal points, and blanks between numbers");
+      rounded_ += is_rounded_text(word) ? 1u : 0u;
       values[done++] = number.value + 0.0;
     }
     return done;
@@ -75,11 +78,12 @@ class TextValues final : public ValueStream {
 
   bool at_end() override { return !skip_blanks(); }
   std::string position() const override { return std::to_string(marked_line_) + ":" + std::to_string(marked_column_); }
+  std::uint64_t rounded() const override { return rounded_; }
   const ByteInput& bytes() const override { return *text_; }
 
  private:
   static constexpr std::size_t kTokenBytes = TextCursor::kTokenBytes;
-  static bool separates(char c) { return c == '\n' || c == ',' || is_blank(c); }
+  bool separates(char c) const { return c == '\n' || c == comma_ || is_blank(c); }
 
   bool refill() {
     std::memmove(buffer_.data(), buffer_.data() + next_, filled_ - next_);
@@ -119,13 +123,15 @@ class TextValues final : public ValueStream {
     return word;
   }
 
-  [[noreturn]] void fail(const std::string& what) const {
-    throw Error(ErrorKind::kBadInput, what, kCutOrDamagedHereHint).at(text_->name(), position());
+  [[noreturn]] void fail(const std::string& what, const char* hint = kCutOrDamagedHereHint) const {
+    throw Error(ErrorKind::kBadInput, what, hint).at(text_->name(), position());
   }
 
   std::unique_ptr<ByteInput> text_;
   std::vector<char> buffer_;
   std::size_t next_ = 0, filled_ = 0;
+  char comma_;  // a second character between lines or numbers
+  std::uint64_t rounded_ = 0;
   std::uint64_t line_, column_;
   std::uint64_t marked_line_ = 1, marked_column_ = 1;
 };
@@ -136,8 +142,9 @@ std::unique_ptr<ValueStream> binary_values(std::unique_ptr<ByteInput> bytes, Sca
   return std::make_unique<BinaryValues>(std::move(bytes), type, big_endian);
 }
 
-std::unique_ptr<ValueStream> text_values(std::unique_ptr<ByteInput> text, std::uint64_t line, std::uint64_t column) {
-  return std::make_unique<TextValues>(std::move(text), line, column);
+std::unique_ptr<ValueStream> text_values(std::unique_ptr<ByteInput> text, std::uint64_t line, std::uint64_t column,
+                                         bool commas) {
+  return std::make_unique<TextValues>(std::move(text), line, column, commas);
 }
 
 }  // namespace reeb::io

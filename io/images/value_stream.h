@@ -33,8 +33,9 @@ class ValueStream {
 
 std::unique_ptr<ValueStream> binary_values(std::unique_ptr<ByteInput> bytes, ScalarType type, bool big_endian);
 
-// Numbers between white space (or commas, as NRRD allows). The line and the column, from 1, are those of the first
+// Numbers between white space, or also commas, as NRRD allows. The line and the column, from 1, are those of the first
 // byte.
-std::unique_ptr<ValueStream> text_values(std::unique_ptr<ByteInput> text, std::uint64_t line, std::uint64_t column);
+std::unique_ptr<ValueStream> text_values(std::unique_ptr<ByteInput> text, std::uint64_t line, std::uint64_t column,
+                                         bool commas);
 
 }  // namespace reeb::io

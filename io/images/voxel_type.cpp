@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "libreeb/base/count_text.h"
-
 namespace reeb::io {
 namespace {
 
@@ -39,11 +37,6 @@ std::uint64_t to_doubles(ScalarType type, bool big_endian, const char* bytes, st
       convert(false);
     return rounded;
   });
-}
-
-std::string rounded_note(std::uint64_t rounded) {
-  return count_of(rounded, "value") + " beyond 2^53 " + (rounded == 1 ? "was" : "were") +
-         " rounded to the nearest double";
 }
 
 }  // namespace reeb::io

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <string_view>
 
 #include "io/mesh/scalar_bytes.h"
@@ -18,7 +17,5 @@ std::optional<ScalarType> type_named(std::string_view name);
 // values[i] is the i-th of the numbers at `bytes`; -0.0 becomes 0.0. Returns how many of them had to be rounded: those
 // that are integers beyond 2^53 and no double.
 std::uint64_t to_doubles(ScalarType type, bool big_endian, const char* bytes, std::size_t count, double* values);
-// A note for the user, of this number of values.
-std::string rounded_note(std::uint64_t rounded);
 
 }  // namespace reeb::io

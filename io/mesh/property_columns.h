@@ -23,4 +23,9 @@ inline std::string note_on_non_finite_values(std::uint64_t count) {
   return count_of(count, "value") + " of properties that are not used " + (count == 1 ? "is" : "are") + " not finite";
 }
 
+// The note on that many integers that became other numbers.
+inline std::string note_on_rounded_values(std::uint64_t count) {
+  return count_of(count, "value") + " beyond 2^53 " + (count == 1 ? "was" : "were") + " rounded to the nearest double";
+}
+
 }  // namespace reeb::io

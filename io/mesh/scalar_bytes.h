@@ -13,6 +13,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "io/text/words.h"
+
 namespace reeb::io {
 
 enum class ScalarType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kInt64, kUint64, kFloat32, kFloat64 };
@@ -42,6 +44,15 @@ bool is_rounded(Scalar value) {
     return size != 0 && (size >> std::countr_zero(size)) >> 53 != 0;
   }
   return false;
+}
+
+// The same of a word.
+inline bool is_rounded_text(std::string_view word) {
+  constexpr std::size_t kLeastDigits = 16;
+  if (word.size() < kLeastDigits) return false;
+  if (const auto value = whole_number<std::int64_t>(word)) return is_rounded(*value);
+  const auto large = whole_number<std::uint64_t>(word);
+  return large && is_rounded(*large);
 }
 
 // What a format calls a type.
@@ -89,6 +100,11 @@ inline std::size_t byte_size(ScalarType type) {
 
 // Whether each value of the type is exactly a float32.
 inline bool fits_float32(ScalarType type) { return type == ScalarType::kFloat32 || byte_size(type) < 4; }
+
+// is_rounded() of a value in memory.
+inline bool is_rounded_at(ScalarType type, const char* bytes, bool swap) {
+  return with_type(type, [&](auto none) { return is_rounded(load_scalar<decltype(none)>(bytes, swap)); });
+}
 
 // The largest value of an integer type.
 inline std::uint64_t largest_value(ScalarType type) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "io/mesh/property_columns.h"
 #include "io/text/hints.h"
 #include "io/vtk/number_stream.h"
 #include "io/vtk/vtk_cell_type.h"
@@ -50,6 +51,7 @@ class ValueColumn {
     return value;
   }
   std::uint64_t memory_bytes() const { return numbers_.memory_bytes(); }
+  std::uint64_t rounded() const { return numbers_.rounded(); }
 
  private:
   NumberStream numbers_;
@@ -122,8 +124,12 @@ class GridInput final : public CellInput {
     return bytes;
   }
   std::vector<std::string> warnings() const override {
-    if (!file_->has_later_steps) return {};
-    return {"the file has several time steps; only the first one was read"};
+    std::vector<std::string> lines;
+    if (file_->has_later_steps) lines.emplace_back("the file has several time steps; only the first one was read");
+    std::uint64_t rounded = rounded_;
+    for (const auto& column : values_) rounded += column->rounded();
+    if (rounded != 0) lines.push_back(note_on_rounded_values(rounded));
+    return lines;
   }
 
  private:
@@ -135,6 +141,7 @@ class GridInput final : public CellInput {
     points_left_ = next.points;
     list_ = 0;
     coordinates_.reset();
+    for (const auto& column : values_) rounded_ += column->rounded();
     values_.clear();
     const std::vector<PointArray> arrays(next.arrays.begin(), next.arrays.end());
     for (const std::string& property : properties_) {
@@ -224,6 +231,7 @@ class GridInput final : public CellInput {
 
   std::size_t piece_ = 0, list_ = 0;
   std::uint64_t first_point_ = 0, points_left_ = 0;
+  std::uint64_t rounded_ = 0;  // values of earlier pieces
   std::optional<NumberStream> coordinates_;
   std::vector<std::unique_ptr<ValueColumn>> values_;
 

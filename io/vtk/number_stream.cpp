@@ -85,8 +85,13 @@ const char* NumberStream::item() {
 }
 
 double NumberStream::real() {
-  if (!text_) return load_double(place_.type, item(), place_.big_endian);
+  if (!text_) {
+    const char* const bytes = item();
+    if (item_bytes_ == 8) rounded_ += is_rounded_at(place_.type, bytes, place_.big_endian) ? 1u : 0u;
+    return load_double(place_.type, bytes, place_.big_endian);
+  }
   const std::string_view word = token();
+  if (item_bytes_ == 8 && !is_float(place_.type)) rounded_ += is_rounded_text(word) ? 1u : 0u;
   if (place_.type == ScalarType::kFloat32) {
     const auto parsed = parse_number<float>(word);
     if (!parsed.ok) fail_token(word);

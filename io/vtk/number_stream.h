@@ -32,6 +32,9 @@ class NumberStream {
   std::int64_t integer();
   void skip(std::uint64_t count);
 
+  // How many numbers of real() were integers that no double is equal to.
+  std::uint64_t rounded() const { return rounded_; }
+
   // The error at the number that was read last.
   [[noreturn]] void fail(const std::string& what, const std::string& hint) const;
 
@@ -51,6 +54,7 @@ class NumberStream {
   std::unique_ptr<ByteInput> bytes_;
   std::vector<char> buffer_;
   std::size_t item_bytes_ = 0, taken_ = 0;
+  std::uint64_t rounded_ = 0;
   std::uint64_t item_offset_ = 0;  // of the number that was read last
 };
 

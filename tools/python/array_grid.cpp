@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "io/images/voxel_type.h"
+#include "io/mesh/property_columns.h"
 #include "tools/python/strided_array.h"
 
 namespace reeb::python {
@@ -46,7 +46,7 @@ class Reader final : public GridReader {
   std::uint64_t bytes_read() const override { return next_ * io::byte_size(grid_.type); }
   std::vector<std::string> warnings() const override {
     if (rounded_ == 0) return {};
-    return {io::rounded_note(rounded_)};
+    return {io::note_on_rounded_values(rounded_)};
   }
 
  private:

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "io/images/voxel_type.h"
+#include "io/mesh/property_columns.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/port/deciding_triangles.h"
@@ -40,7 +40,7 @@ std::vector<std::string> rounding_notes(std::span<const Column> columns) {
   std::uint64_t rounded = 0;
   for (const Column& column : columns) rounded += column.array.rounded(column.index);
   if (rounded == 0) return {};
-  return {io::rounded_note(rounded)};
+  return {io::note_on_rounded_values(rounded)};
 }
 
 // values[i] = that of vertex id(i).

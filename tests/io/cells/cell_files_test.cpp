@@ -154,6 +154,20 @@ TEST(CellFiles, WhatIsLeftOutOfMeditIsNoted) {
                    "records after the announced number were ignored, in 1 section"}));
 }
 
+TEST(CellFiles, SurplusLinesOfTetgenAreNoted) {
+  const auto notes = [](const std::string& nodes, const std::string& cells) {
+    write_file("surplus.node", nodes);
+    const auto reader = open_mesh(write_file("surplus.ele", cells));
+    read_all(*reader);
+    return reader->warnings();
+  };
+  const std::string nodes = "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n", cells = "1 4 0\n1 1 2 3 4\n";
+  const std::vector<std::string> note = {"lines after the announced number of vertices or cells were ignored"};
+  EXPECT_EQ(notes(nodes + "# by hand\n", cells + "\n# by hand\n"), std::vector<std::string>());
+  EXPECT_EQ(notes(nodes + "5 1 1 1\n", cells), note);
+  EXPECT_EQ(notes(nodes, cells + "2 1 2 3 4\n"), note);
+}
+
 TEST(CellFiles, MeditOfHigherOrder) {
   const Mesh mesh =
       read_mesh(write_file("high.mesh",

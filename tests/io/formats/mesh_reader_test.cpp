@@ -256,6 +256,11 @@ TEST(Readers, SmallOddities) {
   EXPECT_EQ(read_mesh(write_file("eof.ply", ascii_ply().substr(0, ascii_ply().size() - 1))), kTetrahedron);
   EXPECT_EQ(read_mesh(write_file("one_line.off", off("# a\nOFF 4 4 0 # b\n\n"))), kTetrahedron);
   EXPECT_EQ(read_mesh(write_file("n.off", off("nOFF 3\n4 4 0\n"))), kTetrahedron);
+  // Each count on a line of its own; the number of edges may be missing.
+  EXPECT_EQ(read_mesh(write_file("counts.off", off("OFF\n4\n4\n6\n"))), kTetrahedron);
+  EXPECT_EQ(read_mesh(write_file("counts.off", off("OFF\n4 # vertices\n\n4\n# edges\n6\n"))), kTetrahedron);
+  EXPECT_EQ(read_mesh(write_file("counts.off", off("OFF\n4\n4\n"))), kTetrahedron);
+  EXPECT_EQ(read_mesh(write_file("counts.off", off("OFF\n4 4\n"))), kTetrahedron);
 }
 
 // Files that others read, although they are not as they should be.

@@ -41,6 +41,19 @@ TEST(EsriGrid, PlacesOfVertices) {
   EXPECT_EQ(reader->place_of(5).position, "8:7");
 }
 
+// A decimal comma is not a blank.
+TEST(EsriGrid, DecimalCommasAreRefused) {
+  const std::string head = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n";
+  try {
+    read_grid(write_file("comma.asc", head + "12 345,5\n7 9\n"));
+    ADD_FAILURE() << "read";
+  } catch (const Error& error) {
+    EXPECT_NE(error.message().find("\"345,5\" is not a number"), std::string::npos) << error.what();
+    EXPECT_NE(error.hint().find("decimal points"), std::string::npos) << error.hint();
+    EXPECT_EQ(error.position(), "6:4");
+  }
+}
+
 TEST(EsriGrid, BadFilesAreRefused) {
   const auto error = [](const std::string& text) { return error_of(write_file("bad.asc", text)); };
   EXPECT_EQ(error(kHead + "0 1 2\n3 4    \n"), "bad.asc:8:1: the file ends after 5 of 6 values");

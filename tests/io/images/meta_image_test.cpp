@@ -63,6 +63,22 @@ TEST(MetaImage, DataInAnotherFile) {
   EXPECT_EQ(values_of(meta("MET_UCHAR", "CompressedData = True\n", "a.raw.gz")), kSix);
 }
 
+// HeaderSize counts from the beginning of the file, also if the data are in it.
+TEST(MetaImage, DataAtAPlaceOfThisFile) {
+  for (const bool packed : {false, true}) {
+    const std::string data = packed ? zlib_packed(kBytes) : kBytes;
+    const auto with_size = [&](std::size_t size) {
+      return meta("MET_UCHAR", std::string(packed ? "CompressedData = True\n" : "") + "HeaderSize = " +
+                                   std::string(4 - std::to_string(size).size(), '0') + std::to_string(size) + "\n");
+    };
+    const std::size_t header = with_size(0).size();
+    for (const std::size_t gap : {0u, 5u}) {
+      const std::string text = with_size(header + gap);
+      EXPECT_EQ(values_of(text + std::string(gap, 'x') + data), kSix) << packed << gap;
+    }
+  }
+}
+
 TEST(MetaImage, PositionsAndComponents) {
   Grid grid = read_grid(write_file("p.mha",
                                    "NDims = 3\nDimSize = 3 2 1\nElementType = MET_UCHAR\n"

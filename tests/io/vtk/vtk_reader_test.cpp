@@ -238,6 +238,20 @@ TEST(VtkReader, OfSeveralTimeStepsTheFirstIsRead) {
   }
 }
 
+TEST(VtkReader, IntegersThatAreRoundedAreCounted) {
+  const std::string head =
+      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0 1 1 0\n"
+      "POINT_DATA 4\nSCALARS id vtktypeint64 1\nLOOKUP_TABLE default\n";
+  const auto notes = [&](const std::string& values) {
+    const auto reader = open_mesh(write_file("ids.vtk", head + values), {.properties = {"id"}});
+    read_all(*reader);
+    return reader->warnings();
+  };
+  EXPECT_EQ(notes("9007199254740992 -9007199254740992 1 9007199254740994\n"), std::vector<std::string>());
+  EXPECT_EQ(notes("9007199254740993 -9007199254740993 1 9223372036854775807\n"),
+            std::vector<std::string>{"3 values beyond 2^53 were rounded to the nearest double"});
+}
+
 TEST(VtkReader, NumbersAreFloat32OnlyIfThoseOfPropertiesAre) {
   for (const auto& [type, is_float32] :
        {std::pair("Float32", true), {"UInt8", true}, {"Float64", false}, {"Int32", false}}) {
