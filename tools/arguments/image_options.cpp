@@ -30,4 +30,10 @@ void add_image_options(Command command, io::ImageOptions& image) {
       .type_name("skip");
 }
 
+void refuse_image_options(const io::ImageOptions& image) {
+  if (image.is_raw() || image.skip_nodata)
+    throw Error(ErrorKind::kUsage, "--grid, --type, --spacing, --skip and --nodata say how a mesh is read",
+                "name it with --mesh MESH, or leave them out");
+}
+
 }  // namespace reeb::tools

@@ -114,9 +114,7 @@ void write_tables(const io::GraphView& view, const std::string& nodes, const std
 void extract(const ExtractOptions& options) {
   const io::GraphFormat format = choose_format(options);
   if (!options.mesh.empty()) require_measured_format(format);
-  if (options.mesh.empty() && (options.image.is_raw() || options.image.skip_nodata))
-    throw Error(ErrorKind::kUsage, "--grid, --type, --spacing, --skip and --nodata say how a mesh is read",
-                "name it with --mesh MESH, or leave them out");
+  if (options.mesh.empty()) refuse_image_options(options.image);
   // Errors in the command line are reported before the file is read.
   if (options.on_surface && !io::has_lines(format))
     throw Error(ErrorKind::kUsage, "--on-surface is for formats with lines in space",

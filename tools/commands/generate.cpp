@@ -42,7 +42,7 @@ struct GenerateArguments {
 void print_summary(const GenerateArguments& arguments, const io::ExpectedTopology& t, std::uint64_t cells) {
   const bool ball = arguments.mesh.kind == io::MeshKind::kBall;
   const bool whole = arguments.mesh.kind == io::MeshKind::kSierpinski && arguments.mesh.whole_cells;
-  const std::string of = ball ? "tetrahedra" : "triangles";
+  const char* const of = ball ? "tetrahedron" : "triangle";
   const std::uint64_t asked = ball ? arguments.mesh.tetrahedra : arguments.mesh.triangles,
                       got = ball ? t.tetrahedra : t.triangles, more = std::max(asked, got) - std::min(asked, got);
   SimplexCounts simplices{};
@@ -56,7 +56,7 @@ void print_summary(const GenerateArguments& arguments, const io::ExpectedTopolog
   if (!t.genus) text += ", first Betti number " + with_commas(t.first_betti);
   print_line(text);
   if (more > asked / 10)
-    print_line(fmt::format("note: asked for {} {}; a {} of {} is the nearest that there is", with_commas(asked), of,
+    print_line(fmt::format("note: asked for {}; a {} of {} is the nearest that there is", count_of(asked, of),
                            arguments.kind, with_commas(got)));
 }
 

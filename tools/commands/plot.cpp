@@ -113,6 +113,7 @@ void plot(PlotOptions options) {
   if (options.output.empty()) options.output = std::filesystem::path(options.files[0]).stem().string() + ".svg";
   const PictureFormat format = picture_format(options.output);
   check_kind(options);
+  if (options.skeleton.mesh.empty()) refuse_image_options(options.skeleton.image);
   if (!options.view.empty()) parse_view(options.view);
   check_threshold(options.skeleton.level);
   if (options.skeleton.mesh == "-")

@@ -28,6 +28,7 @@ struct PageOptions {
 
 void check_files(const PageOptions& options) {
   const std::string& mesh = options.report.defects.mesh.path;
+  if (mesh.empty()) refuse_image_options(options.report.defects.mesh.image);
   require_reeb_file(options.report.file, "report");
   RunFiles files;
   files.add_input(options.report.file, "the .reeb file");

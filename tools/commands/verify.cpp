@@ -135,6 +135,7 @@ void verify(const VerifyOptions& options) {
   };
   if (options.full && (options.mesh.empty() || is_pipe(options.mesh)))
     throw Error(ErrorKind::kUsage, "--full needs a mesh in a file", "name it with --mesh MESH");
+  if (options.mesh.empty()) refuse_image_options(options.image);
   require_reeb_file(options.file, "verify");
   require_mesh_file(options.mesh, "name the mesh that the file was computed from");
   const ooc::ReebFile file(options.file);

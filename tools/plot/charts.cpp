@@ -71,21 +71,26 @@ std::string draw_loops(std::span<const ooc::ReebFile> files, const LevelChoice& 
   std::vector<io::LoopSeries> series;
   io::Heading heading;
   std::uint64_t loops = 0, shown = 0;
-  for (const ooc::ReebFile& file : files) {
-    LoopsOfFile one = loops_of(file, choice);
+  std::vector<LoopsOfFile> all;
+  for (const ooc::ReebFile& file : files) all.push_back(loops_of(file, choice));
+  const bool same_level = std::ranges::all_of(all, [&](const LoopsOfFile& one) { return one.level == all[0].level; });
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const ooc::ReebFile& file = files[i];
+    LoopsOfFile& one = all[i];
     loops += one.loops;
     shown += one.series.percents.size();
     heading.subtitle = one.level + (files.size() > 1 ? "" : ", " + count_of(one.loops, "loop"));
     // Files of the same name are in different folders.
     const bool is_known = std::ranges::count(files, name_and_function(file), name_and_function) == 1;
     one.series.name = (is_known ? name_and_function(file) : file.path() + ", f = " + file.header().function) + ": " +
-                      count_of(one.loops, "loop");
+                      count_of(one.loops, "loop") + (same_level ? "" : ", " + one.level);
     series.push_back(std::move(one.series));
   }
   heading.title = files.size() > 1
                       ? "Loops above a persistence"
                       : graph_name(files[0]) + ", f = " + files[0].header().function + ": loops above a persistence";
-  if (files.size() > 1) heading.subtitle = count_of(files.size(), "graph") + ", " + heading.subtitle + " of each";
+  if (files.size() > 1)
+    heading.subtitle = count_of(files.size(), "graph") + (same_level ? ", " + heading.subtitle + " of each" : "");
   if (shown == 0) return message_picture(heading, why_no_loops(files, loops, choice));
   if (shown != loops) heading.subtitle += "; without " + count_of(loops - shown, "loop") + " of persistence 0";
   return run_gnuplot(heading, io::loop_chart(series), temp_folder);

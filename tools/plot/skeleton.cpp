@@ -19,13 +19,6 @@
 namespace reeb::tools {
 namespace {
 
-Point position_of(const MeshBatch& batch, std::size_t vertex) {
-  Point position{};
-  for (std::size_t axis = 0; axis < std::min<std::size_t>(3, batch.coordinates.size()); ++axis)
-    position[axis] = batch.coordinates[axis][vertex];
-  return position;
-}
-
 double along(const Point& direction, const Point& position) {
   return direction[0] * position[0] + direction[1] * position[1] + direction[2] * position[2];
 }
@@ -49,7 +42,7 @@ class VertexSample {
 
   void add(const MeshBatch& batch) {
     for (std::size_t i = 0; i < batch.vertex_count; ++i) {
-      const Point position = position_of(batch, i);
+      const Point position = batch.position(i);
       for (std::size_t k = 0; k < sides_.size(); ++k) {
         const double reach = along(sides_[k], position);
         farthest_[2 * k].take(-reach, position);
@@ -111,7 +104,7 @@ class SurfaceDrawing {
     const double low = header_.function_min / 2, range = header_.function_max / 2 - low;
     placed_.clear();
     for (std::size_t i = 0; i < batch.vertex_count; ++i) {
-      const Point position = position_of(batch, i);
+      const Point position = batch.position(i);
       const io::PicturePoint at = projection_.place(position);
       const double share = values.empty() || !(range > 0) ? 0 : (values[0][i] / 2 - low) / range;
       placed_.push_back({static_cast<float>(at.x - io::kSkeletonCorner.x),

@@ -43,9 +43,10 @@ int take_unit(std::string_view& text) {
 std::optional<std::uint64_t> count_with_unit(std::string_view text) {
   if (const auto value = io::whole_number<std::uint64_t>(text)) return value;
   const double number = take_number(text);
-  const double scaled = number * std::pow(1000.0, take_unit(text));
-  if (number < 0 || !text.empty() || scaled != std::floor(scaled) || scaled >= 0x1p63) return {};
-  return static_cast<std::uint64_t>(scaled);
+  // The product is rounded: 4.1M is a whole number, and 4.1 is none of the doubles.
+  const double unit = std::pow(1000.0, take_unit(text)), whole = std::nearbyint(number * unit);
+  if (number < 0 || !text.empty() || whole / unit != number || whole >= 0x1p63) return {};
+  return static_cast<std::uint64_t>(whole);
 }
 
 }  // namespace

@@ -177,7 +177,8 @@ bool read_if_whole(const ooc::ReebFile& file, const ReportOptions& options, cons
     read();
     return true;
   } catch (const Error& error) {
-    const bool is_damaged = error.kind() == ErrorKind::kBadInput && error.file() == file.path();
+    const bool is_damaged =
+        error.kind() == ErrorKind::kBadInput && error.cause() != ErrorCause::kUnreadable && error.file() == file.path();
     if (file.damage() == nullptr && !is_damaged) throw;
     findings.notes.push_back(fmt::format("{} cannot be read: {}.", what, error.what()));
     if (options.note && file.damage() == nullptr)
@@ -203,8 +204,8 @@ void find_skeleton(const ooc::ReebFile& file, const ReportOptions& options, Find
       findings.notes.push_back("The skeleton in this page shows the levels before the damage, with at most " +
                                count_of(level.nodes, "node") + ".");
       return;
-    } catch (const Error&) {
-      // A coarser one needs less of the file.
+    } catch (const Error& error) {  // a coarser one needs less of the file
+      if (error.kind() != ErrorKind::kBadInput || error.cause() == ErrorCause::kUnreadable) throw;
     }
   }
   findings.finest.reset();

@@ -192,6 +192,13 @@ TEST(Quantity, CountsTakeUnitsFractionsAndExponents) {
   EXPECT_EQ(count("1G"), 1'000'000'000u);
   EXPECT_EQ(count("1e3"), 1'000u);
   EXPECT_EQ(count("1.25e2k"), 125'000u);
+  // No double is 4.1, and the product is not exact.
+  for (int i = 0; i < 10'000; ++i) {
+    const std::string digits = std::to_string(1'000'000 + i);
+    EXPECT_EQ(count("8." + digits.substr(1) + "M"), 8'000'000u + static_cast<unsigned>(i));
+    EXPECT_EQ(count(std::to_string(i / 1000) + "." + std::to_string(1000 + i % 1000).substr(1) + "k"),
+              static_cast<unsigned>(i));
+  }
   EXPECT_EQ(count("18446744073709551615"), 18446744073709551615u);
   EXPECT_EQ(count("9007199254740993"), 9007199254740993u) << "2^53 + 1, which no double is";
 }

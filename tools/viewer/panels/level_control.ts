@@ -70,8 +70,9 @@ export async function setThreshold(viewer: Viewer, file: OpenFile, threshold: nu
 // A number, or a share of the range with %.
 export function readThreshold(viewer: Viewer, file: OpenFile) {
   const text = input.value.trim()
-  const number = Number(text.replace(/%$/, ''))
-  if (text === '' || !Number.isFinite(number) || number < 0) {
+  const digits = text.replace(/%$/, '')
+  const number = Number(digits)
+  if (digits.trim() === '' || !Number.isFinite(number) || number < 0) {
     refuse(input, kNoThreshold)
     return announce(kNoThreshold)
   }

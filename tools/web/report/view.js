@@ -79,8 +79,9 @@ export class SkeletonView {
   // A number, or a share of the range with %.
   setThreshold(text) {
     const trimmed = text.trim()
-    const number = Number(trimmed.replace(/%$/, ''))
-    if (trimmed === '' || !Number.isFinite(number) || number < 0) {
+    const digits = trimmed.replace(/%$/, '')
+    const number = Number(digits)
+    if (digits.trim() === '' || !Number.isFinite(number) || number < 0) {
       refuse(this.input, kNoThreshold)
       return this.announce(kNoThreshold)
     }
