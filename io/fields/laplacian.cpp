@@ -78,7 +78,7 @@ void add_triangle(const WholeComplex& complex, const std::array<std::uint32_t, 3
   std::array<double, 3> length{};  // opposite to the corner
   for (std::size_t i = 0; i < 3; ++i) length[i] = complex.length(corners[(i + 1) % 3], corners[(i + 2) % 3]);
   const double area = area_of(length[0], length[1], length[2]);
-  std::array<double, 3> product{};  // of the edges at the corner, four times
+  std::array<double, 3> product{};  // twice the scalar product of the edges at the corner
   double divisor = 4 * area;
   for (std::size_t i = 0; i < 3; ++i) {
     const double a = length[i], b = length[(i + 1) % 3], c = length[(i + 2) % 3];
@@ -110,6 +110,11 @@ void make_unique(Simplices<N>& simplices) {
   simplices.erase(std::unique(simplices.begin(), simplices.end()), simplices.end());
 }
 
+void add_edges_of(const Simplices<3>& triangles, Simplices<2>& edges) {
+  for (const auto& t : triangles)
+    for (const auto& edge : {std::array{t[0], t[1]}, {t[1], t[2]}, {t[0], t[2]}}) edges.push_back(edge);
+}
+
 struct PartSimplices {
   Simplices<3> triangles;
   Simplices<2> edges;  // of surfaces: those of no triangle
@@ -127,8 +132,7 @@ PartSimplices simplices_of(const WholeComplex& complex, const Part& part) {
   add_sorted(complex.edges, part, own);
   make_unique(own);
   of_triangles.reserve(3 * result.triangles.size());
-  for (const auto& t : result.triangles)
-    for (const auto& edge : {std::array{t[0], t[1]}, {t[1], t[2]}, {t[0], t[2]}}) of_triangles.push_back(edge);
+  add_edges_of(result.triangles, of_triangles);
   make_unique(of_triangles);
   std::ranges::set_difference(own, of_triangles, std::back_inserter(result.edges));
   return result;
@@ -152,8 +156,7 @@ Weights weights_of(const WholeComplex& complex, const Part& part) {
       weights.masses = weights.masses.cwiseMax(1e-9 * mean);
     }
   } else {
-    for (const auto& t : triangles)
-      for (const auto& edge : {std::array{t[0], t[1]}, {t[1], t[2]}, {t[0], t[2]}}) edges.push_back(edge);
+    add_edges_of(triangles, edges);
     make_unique(edges);
     entries.reserve(3 * edges.size());
     for (const auto& e : edges) add_edge(part.number[e[0]], part.number[e[1]], 1, entries);

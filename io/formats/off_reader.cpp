@@ -135,7 +135,7 @@ class AsciiOffReader final : public OffReader {
     header.vertices = count();
     const std::uint64_t line = text_.line();
     header.faces = count();
-    // The number of edges, which is often wrong, and often missing. Where each count has a line of its own, so has it.
+    // The number of edges, which is often wrong, and often missing. It may be on a line of its own if the others are.
     const bool apart = text_.line() != line && !text_.more_on_line();
     text_.skip_line();
     if (apart && header.dimension > 1 && text_.more())

@@ -130,7 +130,7 @@ class TextValues final : public ValueStream {
   std::unique_ptr<ByteInput> text_;
   std::vector<char> buffer_;
   std::size_t next_ = 0, filled_ = 0;
-  char comma_;  // a second character between lines or numbers
+  char comma_;  // a comma if it separates numbers, else a line end
   std::uint64_t rounded_ = 0;
   std::uint64_t line_, column_;
   std::uint64_t marked_line_ = 1, marked_column_ = 1;

@@ -10,8 +10,8 @@
 
 namespace reeb::ooc {
 
-// What the process itself and the windows of files take of a limit. A limit below the least that a run may have is that
-// of tables alone.
+// What the process itself and the windows of files take of a limit. A limit below 16 MiB is too small for a process; it
+// counts for tables alone.
 inline std::uint64_t set_aside_of(std::uint64_t memory_bytes) {
   constexpr std::uint64_t kProcess = std::uint64_t{9} << 20, kLeast = std::uint64_t{16} << 20;
   return memory_bytes == MemoryBudget::kUnlimited || memory_bytes < kLeast ? 0 : kProcess;

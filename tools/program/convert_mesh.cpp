@@ -130,8 +130,8 @@ class Conversion {
       reader_ = io::make_stream_mesh_reader(std::move(events), read_options(), bytes);
     } else {
       io::ImageOptions image = options_.image;
-      // Mesh formats have no vertices to skip. What is sorted is numbered anew when it is spooled, so that functions
-      // see the indices of the image.
+      // In mesh formats, numbers have no gaps. What is sorted gets such numbers later, when it is spooled: until then,
+      // functions need the indices of the image.
       image.renumber = !sorts_;
       reader_ = io::open_mesh(input_, std::move(source), read_options(), image, format);
     }

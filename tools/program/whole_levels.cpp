@@ -59,9 +59,13 @@ std::string threshold_text(const ooc::ReebFile& file, const LevelLine& level) {
       if (typed >= level.threshold && file.version_at(typed) == level.version) return text;
     }
   } catch (const Error& error) {  // which threshold gives a finer level can be in a part that is missing or damaged
-    if (error.kind() != ErrorKind::kBadInput || error.cause() == ErrorCause::kUnreadable) throw;
+    if (!says_damage(error)) throw;
   }
   return exact;
+}
+
+bool says_damage(const Error& error) {
+  return error.kind() == ErrorKind::kBadInput && error.cause() != ErrorCause::kUnreadable;
 }
 
 bool is_whole(const ooc::ReebFile& file, const LevelLine& level) {

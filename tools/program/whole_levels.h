@@ -24,6 +24,9 @@ void warn_of_damage(const ooc::ReebFile& file);
 // Which part of a file was wanted: a level, or the pairs, which are at its end.
 enum class FilePart { kLevel, kPairs };
 
+// Whether an error says that what was read is damaged or missing, not that it could not be read.
+bool says_damage(const Error& error);
+
 // Whether an error says that the missing part of the file is needed.
 bool meets_missing_part(const ooc::ReebFile& file, const Error& error);
 // Such an error, with a hint that names the finest whole level.

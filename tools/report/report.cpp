@@ -177,8 +177,7 @@ bool read_if_whole(const ooc::ReebFile& file, const ReportOptions& options, cons
     read();
     return true;
   } catch (const Error& error) {
-    const bool is_damaged =
-        error.kind() == ErrorKind::kBadInput && error.cause() != ErrorCause::kUnreadable && error.file() == file.path();
+    const bool is_damaged = says_damage(error) && error.file() == file.path();
     if (file.damage() == nullptr && !is_damaged) throw;
     findings.notes.push_back(fmt::format("{} cannot be read: {}.", what, error.what()));
     if (options.note && file.damage() == nullptr)
@@ -205,7 +204,7 @@ void find_skeleton(const ooc::ReebFile& file, const ReportOptions& options, Find
                                count_of(level.nodes, "node") + ".");
       return;
     } catch (const Error& error) {  // a coarser one needs less of the file
-      if (error.kind() != ErrorKind::kBadInput || error.cause() == ErrorCause::kUnreadable) throw;
+      if (!says_damage(error)) throw;
     }
   }
   findings.finest.reset();

@@ -75,9 +75,10 @@ void run_fragment(FragmentArguments arguments) {
     throw Error(ErrorKind::kUsage, "--scan and --shared exclude each other",
                 "make the names of all parts with --scan, then each fragment with --shared");
   const std::vector<std::string> outputs = outputs_of(arguments, choice);
-  for (const std::string& output : arguments.quiet ? std::vector<std::string>() : outputs)
-    note_other_suffix(output, {arguments.scan ? ".names" : ".fragment"},
-                      arguments.scan ? "a file of names" : "a fragment");
+  if (!arguments.quiet)
+    for (const std::string& output : outputs)
+      note_other_suffix(output, {arguments.scan ? ".names" : ".fragment"},
+                        arguments.scan ? "a file of names" : "a fragment");
   take_denoise(arguments);
   options.opened = [&](const MeshInfo& info) {
     if (!arguments.quiet) print_line(printable(arguments.mesh + ": " + describe(info)));

@@ -49,6 +49,15 @@ export function thresholdText(threshold, isSame = (number) => number >= threshol
   return String(threshold)
 }
 
+// What a person types as a threshold: a number from 0 on, or with % a share of the range. Null if it is neither.
+export function parseThreshold(text, range) {
+  const isShare = text.endsWith('%')
+  const digits = isShare ? text.slice(0, -1) : text
+  const number = Number(digits)
+  if (digits.trim() === '' || !Number.isFinite(number) || number < 0) return null
+  return isShare ? (number / 100) * range : number
+}
+
 // Texts of different numbers, with as many digits as tell them apart.
 export function distinctNumbers(values) {
   const different = new Set(values).size

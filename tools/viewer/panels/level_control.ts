@@ -1,5 +1,5 @@
 // The threshold: by the slider, as a number, or from the table of levels.
-import { thresholdText } from '../../web/data.js'
+import { parseThreshold, thresholdText } from '../../web/data.js'
 import { kNoThreshold, refuse, take } from '../../web/note.js'
 import { makeTable } from '../../web/table.js'
 import type { Header } from '../reading/header'
@@ -70,13 +70,12 @@ export async function setThreshold(viewer: Viewer, file: OpenFile, threshold: nu
 // A number, or a share of the range with %.
 export function readThreshold(viewer: Viewer, file: OpenFile) {
   const text = input.value.trim()
-  const digits = text.replace(/%$/, '')
-  const number = Number(digits)
-  if (digits.trim() === '' || !Number.isFinite(number) || number < 0) {
+  const threshold = parseThreshold(text, rangeOf(file.header))
+  if (threshold === null) {
     refuse(input, kNoThreshold)
     return announce(kNoThreshold)
   }
-  void setThreshold(viewer, file, text.endsWith('%') ? (number / 100) * rangeOf(file.header) : number, text)
+  void setThreshold(viewer, file, threshold, text)
 }
 
 export function showBudget({ session }: OpenFile) {

@@ -1,7 +1,7 @@
 // The interactive skeleton: slider, threshold, picture, hovering, and its table.
 import { Camera, control } from '../camera.js'
 import { onThemeChange } from '../colors.js'
-import { count, digitsFor, shortNumber, thresholdText } from '../data.js'
+import { count, digitsFor, parseThreshold, shortNumber, thresholdText } from '../data.js'
 import { SvgPicture } from './flat.js'
 import { kNoThreshold, refuse, take } from '../note.js'
 import { WebglPicture } from './scene.js'
@@ -76,16 +76,13 @@ export class SkeletonView {
     return nodes.findIndex((count) => count <= always + kLegibleNodes)
   }
 
-  // A number, or a share of the range with %.
   setThreshold(text) {
-    const trimmed = text.trim()
-    const digits = trimmed.replace(/%$/, '')
-    const number = Number(digits)
-    if (digits.trim() === '' || !Number.isFinite(number) || number < 0) {
+    const threshold = parseThreshold(text.trim(), this.skeleton.values.size)
+    if (threshold === null) {
       refuse(this.input, kNoThreshold)
       return this.announce(kNoThreshold)
     }
-    this.setLevel(this.skeleton.levelAt(trimmed.endsWith('%') ? (number / 100) * this.skeleton.values.size : number), trimmed)
+    this.setLevel(this.skeleton.levelAt(threshold), text.trim())
   }
 
   // `typed`: the threshold that was asked for, if it was.
