@@ -24,7 +24,7 @@ void check_input_file(const std::string& path) {
   if (failure == std::errc::too_many_symbolic_link_levels)
     throw Error(ErrorKind::kBadInput, "this is a symbolic link that leads to itself", "name a file").at(path);
   if (std::filesystem::is_directory(status))
-    throw Error(ErrorKind::kBadInput, "is a directory, not a file", "name a file in it").at(path);
+    throw Error(ErrorKind::kBadInput, "this is a folder, not a file", "name a file in it").at(path);
   if (::access(path.c_str(), R_OK) != 0)
     throw Error(ErrorKind::kBadInput, std::string("cannot be read: ") + std::strerror(errno),
                 "check the permissions of the file")

@@ -19,7 +19,8 @@ void check_mesh_name(const std::string& path) {
   if (path == kStandardOutput)
     throw Error(ErrorKind::kUsage, "a mesh is not written to standard output",
                 "name a file, which ends in .ply .obj .off .cx .sma .smb .smc .sva .svb or .events.txt");
-  throw Error(ErrorKind::kUsage, "cannot tell the mesh format to write from this name",
+  throw Error(ErrorKind::kUsage,
+              suffix == ".stl" ? "STL is read, but not written" : "cannot tell the mesh format to write from this name",
               "end the name of the output in .ply .obj .off .cx .sma .smb .smc .sva .svb or .events.txt")
       .at(path);
 }

@@ -25,7 +25,7 @@ double random_value(std::uint64_t seed, std::uint64_t vertex) noexcept;
 class FunctionSource final : public VertexFunction {
  public:
   // `properties` is the ReadOptions::properties with which the mesh was opened; `field` is what read_fields() found for
-  // this function (mesh_field.h).
+  // this function. Users of the library get a function that needs one from compute() only.
   // REQUIRES: a field, if spec.needs_field().
   // THROWS: Error{kBadInput}: the mesh (`mesh_name`) does not have the coordinate or property; the file cannot be read,
   //         or is known not to have one value per vertex.

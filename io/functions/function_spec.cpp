@@ -143,6 +143,9 @@ FunctionSpec parse_function(std::string_view text) {
   if (text == "laplacian:0")
     throw Error(ErrorKind::kUsage, "\"laplacian:0\" is not a function: K of laplacian:K is at least 1",
                 "laplacian:1, or spectral, is the first eigenvector that is not constant");
+  if (text.starts_with("distance:"))
+    throw Error(ErrorKind::kUsage, std::string("\"").append(text).append("\" is not a function"),
+                "distance:VERTEX has the number of a vertex, distance:X,Y,Z three coordinates");
   for (const auto& [name, needs, example] : kNeeds)
     if (text == name)
       throw Error(ErrorKind::kUsage, std::string(name) + " needs " + std::string(needs),

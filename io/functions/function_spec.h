@@ -33,7 +33,7 @@ struct FunctionSpec {
   std::array<double, 3> point{};          // to which the distance is measured
   std::vector<std::uint64_t> vertices{};  // from which a geodesic is measured
 
-  // Whether all of the mesh must be known before the first value (mesh_field.h).
+  // Whether all of the mesh must be known before the first value.
   bool needs_field() const { return kind == Kind::kGeodesic || kind == Kind::kLaplacian; }
 };
 

@@ -15,8 +15,6 @@
 namespace reeb {
 namespace {
 
-constexpr std::uint32_t kMostBuckets = 1u << 20;
-
 // Keeps settled nodes and arcs, for users who want the whole graph in memory.
 class KeepingSink : public GraphSink {
  public:

@@ -9,8 +9,8 @@ namespace {
 void require_equal(const std::string& file, const char* what, std::uint64_t in_file, std::uint64_t in_mesh) {
   if (in_file == in_mesh) return;
   throw Error(ErrorKind::kBadInput,
-              "it is not the graph of this mesh: it says " + with_commas(in_file) + " " + what + ", the mesh has " +
-                  with_commas(in_mesh),
+              "this is not the graph of that mesh: it was computed from " + with_commas(in_file) + " " + what +
+                  ", the mesh has " + with_commas(in_mesh),
               "name the mesh that the file was computed from; an image needs --nodata skip if that run had it")
       .at(file);
 }

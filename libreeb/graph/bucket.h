@@ -77,10 +77,13 @@ class BucketIndexer {
   double scale_;  // 2^-exponent, or 0 if that is no normal number
 };
 
+// Of the buckets over a range of values.
+inline constexpr std::uint32_t kMostBuckets = 1u << 20;
+
 // The least exponent for which the values from min to max are in at most 2 * buckets consecutive buckets whose indices
 // are exact. So they are in about `buckets` of them or more, unless there are too few numbers between min and max. The
 // exponent never falls when the range grows.
-// REQUIRES: min <= max, finite; 1 <= buckets <= 2^20.
+// REQUIRES: min <= max, finite; 1 <= buckets <= kMostBuckets.
 int bucket_exponent(double min, double max, std::uint32_t buckets) noexcept;
 
 // Adds `other` to `bucket`: counts add up, the mean is weighted by them. REQUIRES: equal indices.

@@ -29,7 +29,7 @@ std::vector<LevelSize> level_sizes(const Hierarchy& hierarchy) {
   sizes.reserve(last + 1);
   std::uint64_t arcs = arc_change[0];
   // Every cancelled loop lowers b1 by one, and nothing else changes a Betti number.
-  const auto add = [&](double threshold) { sizes.push_back({threshold, arcs + components - loops, arcs}); };
+  const auto add = [&](double persistence) { sizes.push_back({persistence, arcs + components - loops, arcs}); };
   add(0);
   for (const PersistencePair& pair : hierarchy.pairs) {
     if (pair.type == PairType::kExt0 || pair.kept) continue;

@@ -27,7 +27,7 @@ inline std::uint32_t last_version(const Hierarchy& hierarchy) {
 std::uint32_t version_below(const Hierarchy& hierarchy, double threshold);
 
 struct LevelSize {
-  double threshold = 0;  // persistence of the last pair cancelled; 0 in version 0
+  double persistence = 0;  // of the last pair that is cancelled, which is below the threshold; 0 in version 0
   std::uint64_t nodes = 0;
   std::uint64_t arcs = 0;
 };

@@ -48,7 +48,7 @@ void require_level(MemoryBudget& budget, const ReebFile& file, std::uint32_t ver
   const Reservation memory = budget.reserve("graph of the file", ReebFile::kGraphMemoryBytes * size);
   const ReebGraph stored = file.load_graph(version);
   if (stored.nodes != graph.nodes || stored.lo != graph.lo || stored.hi != graph.hi)
-    refuse(file, "it is not the graph of this mesh: its nodes or arcs differ");
+    refuse(file, "this is not the graph of that mesh: its nodes or arcs differ");
 }
 
 ComputeOptions run_options(ComputeOptions options) {
@@ -179,7 +179,7 @@ class FollowedSegmentation : public Segmentation {
     if (first.vertices != 0) {
       const ValueRange range = run_.values.range(0);
       if (range.min != header.function_min || range.max != header.function_max)
-        refuse(file_, "it is not the graph of this mesh: the values of " + header.function + " have another range");
+        refuse(file_, "this is not the graph of that mesh: the values of " + header.function + " have another range");
     }
     full_ = run_.follower->finish();
     level_ = std::move(full_.graph);
@@ -197,7 +197,7 @@ class FollowedSegmentation : public Segmentation {
     if (version_ == 0 || file_.damage() == nullptr)
       require_level(run_.budget, file_, 0, level_);
     else if (level_.node_count() != header.nodes || level_.arc_count() != header.arcs)
-      refuse(file_, "it is not the graph of this mesh: the numbers of nodes or arcs differ");
+      refuse(file_, "this is not the graph of that mesh: the numbers of nodes or arcs differ");
     if (version_ == 0) return;
     take_step([&](const ReebGraph& graph, ArcLog& log) {
       return cancel_to_version(graph, version_, log, [&](double) { run_.resumable.check_interruption(); });

@@ -15,7 +15,7 @@
 #include "io/formats/cx_reader.h"
 #include "io/formats/obj_reader.h"
 #include "io/formats/off_reader.h"
-#include "io/formats/open_mesh.h"
+#include "io/formats/open_input.h"
 #include "io/formats/stl_reader.h"
 #include "io/ply/ply_indexed.h"
 #include "io/ply/ply_reader.h"

@@ -129,6 +129,23 @@ TEST_F(CommandLine, UnexpectedWordsAreNamedInOrder) {
   expect_error(reeb({"verify", "mesh.reeb", "one", "two"}), 2, "unexpected arguments: one two");
 }
 
+TEST_F(CommandLine, AWordTooManyNamesTheOptionThatMayBeMissing) {
+  expect_success(reeb({"mesh.off"}));
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"verify", "mesh.reeb", "mesh.off"}, {"extract", "mesh.reeb", "mesh.off"}})
+    expect_error(reeb(words), 2, "unexpected argument: mesh.off (did you mean --mesh mesh.off?)");
+  expect_error(reeb({"extract", "mesh.reeb", "out.json"}), 2,
+               "unexpected argument: out.json (did you mean -o out.json?)");
+  expect_error(reeb({"extract", "mesh.reeb", "--threshold", "5", "%"}), 2,
+               "unexpected argument: % (write a percentage without a blank, as 5%)");
+}
+
+TEST_F(CommandLine, OptionsOfTheProgramAreGivenWithoutACommand) {
+  const Outcome outcome = reeb({"extract", "--version"});
+  expect_error(outcome, 2, "--version is given without a command");
+  EXPECT_NE(outcome.error.find("hint: `reeb --version`"), std::string::npos) << outcome.error;
+}
+
 TEST_F(CommandLine, ASidecarThatIsNotKeptIsSaid) {
   write("mesh.sma", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf -1 -2 -3\n");
   const auto notes_of = [this](const std::string& mesh) {

@@ -54,6 +54,10 @@ inline Option add_force(Command command, bool& target, const std::string& descri
   return command.add_flag("--force", target, description);
 }
 
+inline Option add_quiet(Command command, bool& target) {
+  return command.add_flag("--quiet", target, "Print no progress, no notes and no summary");
+}
+
 // `--format NAME`, for commands that read a mesh. `what` begins the help.
 inline Option add_format(Command command, std::string& target, const std::string& what = "Input format") {
   return command

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <optional>
 
+#include "io/file/file_name.h"
 #include "libreeb/base/nearest_name.h"
 
 namespace reeb::tools {
@@ -74,13 +75,24 @@ std::string in_plain_words(const CLI::ParseError& refusal) {
   return text;
 }
 
+// The option that may be missing before a single word too many.
+std::string missing_option(const CLI::App& command, const std::string& word) {
+  if (word == "%") return " (write a percentage without a blank, as 5%)";
+  if (looks_like_option(word)) return {};
+  const auto has = [&command](const char* option) { return command.get_option_no_throw(option) != nullptr; };
+  const std::string suffix = io::content_suffix(word);
+  const bool is_mesh = suffix == ".ply" || suffix == ".obj" || suffix == ".off" || suffix == ".stl";
+  if (has("--mesh") && (is_mesh || !has("--output"))) return " (did you mean --mesh " + word + "?)";
+  return has("--output") && !is_mesh ? " (did you mean -o " + word + "?)" : "";
+}
+
 // The text of CLI11 has them from the last to the first, with the -- before words that are not options.
 std::string unexpected_arguments(const CLI::App& command) {
   std::vector<std::string> extras = command.remaining();
   if (const auto dashes = std::ranges::find(extras, "--"); dashes != extras.end()) extras.erase(dashes);
   std::string text = extras.size() == 1 ? "unexpected argument:" : "unexpected arguments:";
   for (const std::string& word : extras) text += " " + word;
-  return text;
+  return extras.size() == 1 ? text + missing_option(command, extras[0]) : text;
 }
 
 // What the user may have meant as the output that is missing.
@@ -120,8 +132,12 @@ Error usage_error(const CLI::App& program, const std::vector<std::string>& words
     return {ErrorKind::kUsage, in_plain_words(refusal), "see `" + program.get_name() + " --help`"};
   const std::string help = "`" + program.get_name() + " " + words[0] + " --help`";
   if (const auto option = unknown_option(*command, words)) {
+    const std::vector<std::string> without_command = long_names(program);
+    if (std::ranges::find(without_command, *option) != without_command.end())
+      return {ErrorKind::kUsage, *option + " is given without a command",
+              "`" + program.get_name() + " " + *option + "`"};
     std::vector<std::string> names = long_names(*command);
-    for (const std::string& name : long_names(program)) names.push_back(name);
+    names.insert(names.end(), without_command.begin(), without_command.end());
     const std::string near = nearest(*option, names);
     // An option alone need not be meant for the default command.
     const std::string also =

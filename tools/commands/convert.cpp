@@ -11,7 +11,7 @@
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/library/run_files.h"
-#include "tools/program/convert_mesh.h"
+#include "tools/meshes/convert_mesh.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/wrapping.h"
@@ -73,7 +73,7 @@ void add_convert(Program& program) {
   add_memory(command, options.memory_bytes);
   add_temp_dir(command, options.temp_folder);
   add_force(command, arguments->force);
-  command.add_flag("--quiet", arguments->quiet, "Print no progress and no notes");
+  add_quiet(command, arguments->quiet);
   command.footer("Example:\n  reeb convert scan.ply scan.smc --order spectral --memory 256M");
   command.callback([arguments] { run_convert(*arguments); });
 }

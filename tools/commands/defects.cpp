@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "io/file/file.h"
 #include "io/file/file_name.h"
 #include "io/file/temp_dir.h"
 #include "libreeb/base/count_text.h"
@@ -54,7 +55,7 @@ void check_files(const DefectsOptions& options) {
     files.add_input(file, "a .reeb file");
     add_values_of(ooc::ReebFile(file), files);
   }
-  if (options.output != "-") files.add_standard_output("the table");
+  if (options.output != io::kStandardOutput) files.add_standard_output("the table");
   if (!options.output.empty()) files.add_output(options.output, "the output", existing_outputs(options.force));
   if (!options.patches.empty()) add_patches(options.patches, existing_outputs(options.force), files);
   files.check();
@@ -65,7 +66,8 @@ void run_defects(DefectsOptions options) {
   const RowLimits limits = parse_row_limits(options.below, options.longest);
   check_files(options);
   if (options.find.mesh.temp_folder.empty())
-    options.find.mesh.temp_folder = io::TempDir::default_folder(options.output == "-" ? "" : options.output);
+    options.find.mesh.temp_folder =
+        io::TempDir::default_folder(options.output == io::kStandardOutput ? "" : options.output);
   ProgressBar bar(options.quiet);
   options.find.mesh.interrupted = watch_signals();
   options.find.computing = [&](const ComputeProgress& p) {
@@ -83,7 +85,7 @@ void run_defects(DefectsOptions options) {
   for (std::size_t i = 0; i < defects.table.rows.size() && rows.size() < options.limit; ++i)
     if (const DefectRow& row = defects.table.rows[i]; limits.has_persistence(row) && limits.has_length(row))
       rows.push_back({i + 1, &row});
-  if (options.output != "-") fmt::print("{}", defect_table(defects, rows));
+  if (options.output != io::kStandardOutput) fmt::print("{}", defect_table(defects, rows));
   if (!options.patches.empty()) {
     const std::size_t most = options.limit == kNoLimit ? kMostPatches : rows.size();
     const ValuedMesh mesh(options.find.mesh, defects.functions);
@@ -100,7 +102,7 @@ void run_defects(DefectsOptions options) {
     else
       write_defect_csv(defects, rows, out);
   });
-  if (options.quiet || options.output == "-") return;
+  if (options.quiet || options.output == io::kStandardOutput) return;
   note_other_suffix(options.output, {".csv", ".json"}, "a table in CSV");
   print_line("wrote " + printable(options.output));
 }
@@ -135,7 +137,7 @@ void add_defects(Program& program) {
   add_threads(command, options->find.threads);
   add_temp_dir(command, options->find.mesh.temp_folder);
   add_force(command, options->force);
-  command.add_flag("--quiet", options->quiet, "Print no progress");
+  add_quiet(command, options->quiet);
   command.footer("Example:\n  reeb defects scan.ply --limit 20 -o scan-defects.csv");
   command.callback([options] { run_defects(*options); });
 }

@@ -192,7 +192,7 @@ void add_extract(Program& app) {
   add_temp_dir(command, options->temp_folder,
                "With --mesh: folder for temporary files (default: $TMPDIR, or the folder of the output)")
       .needs(mesh);
-  command.add_flag("--quiet", options->quiet, "Print no progress and no notes");
+  add_quiet(command, options->quiet);
   command.add_flag("--on-surface", options->on_surface,
                    "Lines pass through vertices of the mesh, not through the centres of contours");
   add_force(command, options->force);

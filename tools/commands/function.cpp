@@ -14,7 +14,7 @@
 #include "io/file/file_ostream.h"
 #include "io/file/temp_dir.h"
 #include "io/formats/create_mesh.h"
-#include "io/formats/open_mesh.h"
+#include "io/formats/open_input.h"
 #include "io/functions/function_source.h"
 #include "io/functions/mesh_field.h"
 #include "io/images/numpy.h"
@@ -255,7 +255,7 @@ void add_function(Program& program) {
   add_memory(command, options->memory_bytes);
   add_temp_dir(command, options->temp_folder);
   add_force(command, options->force);
-  command.add_flag("--quiet", options->quiet, "Print no progress and no notes");
+  add_quiet(command, options->quiet);
   command.footer("Example:\n  reeb function scan.ply -f geodesic:0 -o scan-distance.ply");
   command.callback([options] { run_function(*options); });
 }

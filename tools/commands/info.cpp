@@ -9,7 +9,7 @@
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/library/run_files.h"
-#include "tools/program/mesh_info.h"
+#include "tools/meshes/mesh_info.h"
 #include "tools/runs/fragment_info.h"
 #include "tools/runs/reeb_info.h"
 

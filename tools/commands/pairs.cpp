@@ -156,7 +156,7 @@ void add_pairs(Program& app) {
   command.refuse_option("--threshold", "all pairs are listed",
                         "levels are chosen afterwards: `reeb extract FILE.reeb --threshold 1%`");
   add_force(command, options->force);
-  command.add_flag("--quiet", options->quiet, "Do not say what was written");
+  add_quiet(command, options->quiet);
   command.footer("Example:\n  reeb pairs scan.reeb -o scan-pairs.csv");
   command.callback([options] { list_pairs(*options); });
 }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/file/file.h"
 #include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/printable.h"
@@ -141,7 +142,7 @@ void plot(PlotOptions options) {
   const std::string temp_folder = io::TempDir::default_folder(options.output);
   const std::string bytes = picture_bytes(draw_whole(options, files, temp_folder), format, temp_folder);
   write_output(options.output, options.force, [&](std::ostream& out) { out << bytes; });
-  if (!options.quiet && options.output != "-") print_line("wrote " + printable(options.output));
+  if (!options.quiet && options.output != io::kStandardOutput) print_line("wrote " + printable(options.output));
 }
 
 }  // namespace
@@ -179,7 +180,7 @@ void add_plot(Program& program) {
   command.add_flag("--on-surface", options->skeleton.on_surface,
                    "For a skeleton: lines pass through vertices of the mesh");
   add_force(command, options->force);
-  command.add_flag("--quiet", options->quiet, "Print no progress and no notes");
+  add_quiet(command, options->quiet);
   command.footer("Example:\n  reeb plot scan.reeb --kind skeleton --mesh scan.ply --threshold 1% -o scan.png");
   command.callback([options] { plot(*options); });
 }

@@ -193,7 +193,7 @@ void add_repair(Program& program) {
   add_threads(command, options.threads);
   add_temp_dir(command, options.mesh.temp_folder);
   add_force(command, arguments->force);
-  command.add_flag("--quiet", arguments->quiet, "Print no progress and no summary");
+  add_quiet(command, arguments->quiet);
   command.footer("Example:\n  reeb repair scan.ply -o clean.ply --log clean.json --undo clean.undo");
   command.callback([arguments] { run_repair(*arguments); });
 }

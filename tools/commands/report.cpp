@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "io/file/file.h"
 #include "io/file/temp_dir.h"
 #include "libreeb/base/printable.h"
 #include "ooc/reeb_file/reeb_file.h"
@@ -47,7 +48,7 @@ void run_report(PageOptions options) {
   FindDefectsOptions& defects = options.report.defects;
   defects.files = {options.report.file};
   if (defects.mesh.temp_folder.empty())
-    defects.mesh.temp_folder = io::TempDir::default_folder(options.output == "-" ? "" : options.output);
+    defects.mesh.temp_folder = io::TempDir::default_folder(options.output == io::kStandardOutput ? "" : options.output);
   ProgressBar bar(options.quiet);
   defects.searching = [&](std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {
     bar.update({"curves"}, done, total, triangles);
@@ -61,7 +62,7 @@ void run_report(PageOptions options) {
   write_output(options.output, options.force, [&](std::ostream& out) { out << page; });
   if (options.quiet) return;
   for (const std::string& note : notes) print_line("note: " + note);
-  if (options.output == "-") return;
+  if (options.output == io::kStandardOutput) return;
   note_other_suffix(options.output, {".html", ".htm", ".xhtml"}, "an HTML page");
   print_line("wrote " + printable(options.output));
 }
@@ -90,7 +91,7 @@ void add_report(Program& program) {
   add_threads(command, defects.threads);
   add_temp_dir(command, defects.mesh.temp_folder);
   add_force(command, options->force);
-  command.add_flag("--quiet", options->quiet, "Print no progress and no summary");
+  add_quiet(command, options->quiet);
   command.footer("Example:\n  reeb report scan.reeb --mesh scan.ply -o scan.html");
   command.callback([options] { run_report(*options); });
 }

@@ -225,7 +225,7 @@ void add_segment(Program& program) {
   add_threads(command, options->threads);
   add_temp_dir(command, options->temp_folder);
   add_force(command, options->force);
-  command.add_flag("--quiet", options->quiet, "Print no progress and no notes");
+  add_quiet(command, options->quiet);
   command.footer("Example:\n  reeb segment scan.ply scan.reeb --threshold 1% -o scan.i64");
   command.callback([options] { segment(*options); });
 }

@@ -8,7 +8,7 @@
 
 #include "io/file/content_source.h"
 #include "io/file/file.h"
-#include "io/formats/open_mesh.h"
+#include "io/formats/open_input.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"

@@ -9,7 +9,7 @@
 #include "io/text/output_buffer.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/printable.h"
-#include "tools/program/census_text.h"
+#include "tools/meshes/census_text.h"
 
 namespace reeb::tools {
 namespace {

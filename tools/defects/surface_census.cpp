@@ -1,7 +1,7 @@
 #include "tools/defects/surface_census.h"
 
 #include "io/file/content_source.h"
-#include "io/formats/open_mesh.h"
+#include "io/formats/open_input.h"
 #include "ooc/whole_mesh/workspace.h"
 
 namespace reeb::tools {

@@ -1,5 +1,6 @@
 #include "tools/defects/valued_mesh.h"
 
+#include "io/formats/open_input.h"
 #include "io/functions/function_source.h"
 #include "libreeb/base/error.h"
 #include "ooc/chunks/spooled_mesh.h"

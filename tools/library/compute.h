@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "io/formats/open_mesh.h"
+#include "libreeb/graph/bucket.h"
 #include "libreeb/port/mesh_reader.h"
 #include "ooc/run/compute_result.h"
 
@@ -18,7 +19,6 @@ namespace reeb {
 using ooc::ComputeProgress;
 using ooc::ComputeResult;
 
-inline constexpr std::uint32_t kMostBuckets = 1u << 20;
 inline constexpr unsigned kMostThreads = 1024;
 
 struct ComputeOptions {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "io/file/file.h"
+#include "io/formats/open_input.h"
 #include "io/text/words.h"
 #include "libreeb/base/error.h"
 #include "ooc/checkpoints/partial_folder.h"

@@ -7,6 +7,7 @@
 #include "io/file/temp_dir.h"
 #include "io/formats/format_detection.h"
 #include "io/formats/open_grid.h"
+#include "io/formats/open_input.h"
 #include "libreeb/base/error.h"
 #include "tools/library/held_mesh.h"
 

@@ -24,6 +24,9 @@ double take_number(std::string_view& text) {
   return value;
 }
 
+// "%", also after blanks, as in "5 %".
+bool is_percent(std::string_view text) { return text.ends_with('%') && text.find_first_not_of(' ') == text.size() - 1; }
+
 // The exponent of the unit at the start of `text`, which becomes what follows it: 1 for k, 2 for M; 0 without one.
 int take_unit(std::string_view& text) {
   constexpr std::string_view kUnits = "KMGT";
@@ -79,8 +82,9 @@ std::uint64_t parse_count(const std::string& option, const std::string& text, Co
 double parse_threshold(const std::string& option, const std::string& text, const ValueRange& range) {
   std::string_view rest = text;
   const double value = take_number(rest);
-  if (value < 0 || (!rest.empty() && rest != "%"))
-    refuse(option, text, "a threshold", "give a number from 0 on, like 0.01, or a share of the range, like 0.1%");
+  if (value < 0 || (!rest.empty() && !is_percent(rest)))
+    refuse(option, text, "a threshold",
+           "give a number from 0 on with a decimal point, like 0.01, or a share of the range, like 0.1%");
   return rest.empty() ? value : range.part(value / 100);
 }
 
@@ -101,7 +105,7 @@ double percent_of(const ValueRange& range, double lo, double hi) {
 double parse_share(const std::string& option, const std::string& text, const std::string& hint) {
   std::string_view rest = text;
   const double percent = take_number(rest);
-  if (!(percent >= 0 && percent <= 100) || rest != "%") refuse(option, text, "a share", hint);
+  if (!(percent >= 0 && percent <= 100) || !is_percent(rest)) refuse(option, text, "a share", hint);
   return percent;
 }
 

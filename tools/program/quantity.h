@@ -22,7 +22,7 @@ struct CountLimits {
 // THROWS: Error{kUsage}.
 std::uint64_t parse_count(const std::string& option, const std::string& text, CountLimits limits = {});
 
-// "0.01" in units of the function, or "0.1%" of `range`. THROWS: Error{kUsage}.
+// "0.01" in units of the function, or "0.1%" or "0.1 %" of `range`. THROWS: Error{kUsage}.
 double parse_threshold(const std::string& option, const std::string& text, const ValueRange& range);
 
 // "the threshold 4 is more than the range 0.144443 of y; did you mean 4%?" Empty if it is not, or the range is one
@@ -32,7 +32,7 @@ std::string large_threshold(const std::string& text, const ValueRange& range, co
 // The difference of two values of the range in per cent of it, without overflow. REQUIRES: range.min < range.max.
 double percent_of(const ValueRange& range, double lo, double hi);
 
-// "1%", from 0 to 100. THROWS: Error{kUsage} with this hint.
+// "1%" or "1 %", from 0 to 100. THROWS: Error{kUsage} with this hint.
 double parse_share(const std::string& option, const std::string& text, const std::string& hint);
 
 // "2.5" in units of the mesh. THROWS: Error{kUsage}.

@@ -80,7 +80,8 @@ const LevelLine* finest_whole_level(const ooc::ReebFile& file) {
 }
 
 void warn_of_damage(const ooc::ReebFile& file) {
-  if (const Error* damage = file.damage()) fmt::print(stderr, "reeb: warning: {}\n", printable(damage->what()));
+  if (const Error* damage = file.damage())
+    fmt::print(stderr, "reeb: warning: {}; compute the file again for what is missing\n", printable(damage->what()));
 }
 
 bool meets_missing_part(const ooc::ReebFile& file, const Error& error) {

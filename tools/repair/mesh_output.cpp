@@ -6,6 +6,7 @@
 
 #include "io/file/file_name.h"
 #include "io/formats/create_mesh.h"
+#include "io/formats/open_input.h"
 #include "io/ply/ply_header.h"
 
 namespace reeb::tools {

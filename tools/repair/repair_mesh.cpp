@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "io/file/content_source.h"
-#include "io/formats/open_mesh.h"
+#include "io/formats/open_input.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "tools/defects/surface_census.h"
@@ -332,9 +332,9 @@ std::vector<std::string> summary_of(const Repair& repair) {
   }
   const bool fills_all = repair.cleaning.boundary_length && repair.boundaries_left.empty();
   if (repair.seam_vertices != 0 && !fills_all)
-    lines.push_back(
-        "note: " + count_of(repair.seam_vertices, "vertex") +
-        " of boundaries are in the place of another one, but not joined with it; docs/REPAIR.md has how to");
+    lines.push_back("note: " + count_of(repair.seam_vertices, "vertex") +
+                    " of boundaries have the coordinates of another one, but are not joined with it; join them first, "
+                    "as docs/REPAIR.md shows");
   return lines;
 }
 

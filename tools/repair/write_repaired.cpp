@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "io/file/content_source.h"
-#include "io/formats/open_mesh.h"
+#include "io/formats/open_input.h"
 #include "libreeb/base/error.h"
 #include "tools/repair/mesh_output.h"
 

@@ -108,7 +108,7 @@ void add_glue(Program& program) {
   add_temp_dir(command, options.temp_dir);
   command.add_option("--report", arguments->report, "Write figures of the run as JSON; - is standard output")
       .type_name("FILE");
-  command.add_flag("--quiet", arguments->quiet, "Print no progress and no summary");
+  add_quiet(command, arguments->quiet);
   add_force(command, options.replace);
   command.footer("Example:\n  reeb glue p1.fragment p2.fragment -o scan.reeb");
   command.callback([arguments] { run_glue(*arguments); });

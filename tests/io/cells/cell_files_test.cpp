@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "io/file/content_source.h"
+#include "io/formats/open_input.h"
 #include "libreeb/base/error.h"
 #include "tests/io/cells/cell_files.h"
 

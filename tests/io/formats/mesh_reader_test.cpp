@@ -527,7 +527,7 @@ TEST(Errors, HavePositionAndHint) {
     return text.replace(place, from.size(), to);
   };
   expect_bad((scratch_folder() / "absent").string(), "", "no such file");
-  expect_bad(scratch_folder().string(), "", "directory");
+  expect_bad(scratch_folder().string(), "", "a folder");
   expect_bad(write_file("empty", ""), "0", "empty");
   expect_bad(write_file("unknown", "hello world\n"), "0", "unknown file format");
   expect_bad(write_file("p1.ply", with(ply, "1 0\t0", "1 nan\t0")), "12:3", "cannot be \"nan\"");

@@ -1,6 +1,6 @@
 // Which files are images, and of which kind.
 #include "io/formats/format_detection.h"
-#include "io/formats/open_mesh.h"
+#include "io/formats/open_input.h"
 #include "tests/io/images/nifti_files.h"
 #include "tests/io/images/vti_files.h"
 

@@ -146,7 +146,7 @@ TEST_F(SemanticsDocument, TheLevelsAreThoseOfTheTable) {
                    const std::string least = m[4];
                    const bool is_above = least.starts_with(kAbove);
                    EXPECT_EQ(least == "0", !is_above);
-                   EXPECT_NEAR(sizes[version].threshold, is_above ? std::stod(least.substr(kAbove.size())) : 0, 1e-9);
+                   EXPECT_NEAR(sizes[version].persistence, is_above ? std::stod(least.substr(kAbove.size())) : 0, 1e-9);
                  });
   EXPECT_EQ(rows, 3u);
   EXPECT_EQ(rows, sizes.size());

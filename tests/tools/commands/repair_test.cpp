@@ -541,7 +541,7 @@ TEST_F(RepairTest, SaysWhatIsOdd) {
   // Two squares with a seam between them. Any filling would lie on them.
   write("a.off",
         "OFF\n8 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n1 0 0\n2 0 0\n2 1 0\n1 1 0\n3 0 1 2\n3 0 2 3\n3 4 5 6\n3 4 6 7\n");
-  says({"--fill-boundaries", "100"}, "note: 4 vertices of boundaries are in the place of another one");
+  says({"--fill-boundaries", "100"}, "note: 4 vertices of boundaries have the coordinates of another one");
   expect_success(reeb({"generate", "torus", "--triangles", "1k", "-o", "a.off", "--force"}));
   says({"--longest", "100"}, "note: --longest 100 is more than the whole mesh (");
 }

@@ -97,7 +97,7 @@ TEST_F(VerifyMesh, AnotherMeshIsNoticed) {
   expect_refused("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 2 1\n");
   // Counts tell more than the first node that differs.
   expect_refused("OFF\n5 1 0\n1 0 0\n1 0 2\n0 1 0\n0 0 1\n2 2 2\n3 0 2 1\n",
-                 "mesh.reeb: it is not the graph of this mesh: it says 4 vertices, the mesh has 5");
+                 "mesh.reeb: this is not the graph of that mesh: it was computed from 4 vertices, the mesh has 5");
   write("broken.off", "OFF\n4 4");
   EXPECT_EQ(reeb({"verify", "mesh.reeb", "--mesh", "broken.off"}).exit_code, 1);
 }

@@ -491,7 +491,7 @@ TEST_F(PlantedDefects, FilesOfAnotherMeshAreRefused) {
   write("open.off", "OFF\n4 3 0\n" + whole.substr(10, whole.rfind("3 0 3 2") - 10));
   expect_success(reeb({"compute", "whole.off", "--quiet"}));
   expect_error(reeb({"defects", "open.off", "whole.reeb"}), 1,
-               "whole.reeb: it is not the graph of this mesh: it says 4 triangles, the mesh has 3");
+               "whole.reeb: this is not the graph of that mesh: it was computed from 4 triangles, the mesh has 3");
 }
 
 TEST_F(PlantedDefects, OfCellsAreRefused) {

@@ -347,13 +347,13 @@ TEST_F(Plot, RefusesBeforeAnyWork) {
   expect_error(reeb({"plot", "scan.reeb", "--kind", "skeleton", "--mesh", "-", "-o", "a.svg"}), 2);
   write("small.off", kSmallOff);
   expect_error(reeb({"plot", "scan.reeb", "--kind", "skeleton", "--mesh", "small.off", "-o", "a.svg"}), 1,
-               "scan.reeb: it is not the graph of this mesh");
+               "scan.reeb: this is not the graph of that mesh");
   // With as many vertices, too.
   const std::string whole = kSmallOff;
   write("open.off", "OFF\n4 3 0\n" + whole.substr(10, whole.rfind("3 0 3 2") - 10));
   expect_success(reeb({"compute", "small.off", "--quiet"}));
   expect_error(reeb({"plot", "small.reeb", "--kind", "skeleton", "--mesh", "open.off", "-o", "a.svg"}), 1,
-               "small.reeb: it is not the graph of this mesh: it says 4 triangles, the mesh has 3");
+               "small.reeb: this is not the graph of that mesh: it was computed from 4 triangles, the mesh has 3");
   // And the same surface in other units.
   write("moved.off", std::regex_replace(whole, std::regex("\n0 0 1\n"), "\n0 0 1000\n"));
   for (const std::string surface : {"solid", "none"}) {

@@ -138,7 +138,7 @@ TEST(RepairSummary, SaysWhatItCannotChange) {
   EXPECT_NE(text().find("--fill-boundaries LENGTH"), std::string::npos);
   repair.seam_vertices = 8;
   EXPECT_EQ(text().find("--fill-boundaries LENGTH"), std::string::npos);
-  EXPECT_NE(text().find("note: 8 vertices of boundaries are in the place of another one"), std::string::npos);
+  EXPECT_NE(text().find("note: 8 vertices of boundaries have the coordinates of another one"), std::string::npos);
 }
 
 TEST(RepairSummary, SaysThatNothingWasDropped) {
@@ -281,6 +281,13 @@ TEST(UsageError, FindsNamesThatAreNear) {
   EXPECT_EQ(nearest("--foo", options), "--force");
   EXPECT_EQ(nearest("--wide", options), "");
   EXPECT_EQ(nearest("x", {}), "");
+}
+
+TEST(Quantity, APercentSignMayFollowABlank) {
+  EXPECT_DOUBLE_EQ(parse_threshold("--threshold", "5 %", {0, 20}), 1);
+  EXPECT_DOUBLE_EQ(parse_share("--drop", "5 %", "hint"), 5);
+  for (const char* text : {"5 % ", "5 ", " %", "%", "0,5%", "5%%", "5 x%"})
+    EXPECT_THROW(parse_threshold("--threshold", text, {0, 20}), Error) << text;
 }
 
 TEST(Quantity, SharesOfARangeBeyondTheDoubles) {

@@ -1,4 +1,4 @@
-#include "tools/program/mesh_info.h"
+#include "tools/meshes/mesh_info.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -14,7 +14,7 @@
 #include "io/file/content_source.h"
 #include "io/formats/format_detection.h"
 #include "io/formats/format_names.h"
-#include "io/formats/open_mesh.h"
+#include "io/formats/open_input.h"
 #include "io/images/image_format.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/printable.h"
@@ -23,7 +23,7 @@
 #include "ooc/threads/machine_threads.h"
 #include "ooc/whole_mesh/workspace.h"
 #include "tools/library/run_input.h"
-#include "tools/program/census_text.h"
+#include "tools/meshes/census_text.h"
 #include "tools/program/progress.h"
 #include "tools/program/simplex_text.h"
 

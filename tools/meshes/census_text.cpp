@@ -1,4 +1,4 @@
-#include "tools/program/census_text.h"
+#include "tools/meshes/census_text.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -112,8 +112,9 @@ void print_census(const ooc::MeshCensus& census) {
   print_field("folded", describe(census.folded, "edge"));
   if (census.loose_edges != 0) print_field("loose edges", with_commas(census.loose_edges));
   print_field("orientation", describe_orientation(census));
-  print_field("genus", census.genus ? with_commas(*census.genus) : "not defined: " + census.why_no_genus);
-  if (!census.genus) print_field("Euler number", std::to_string(census.euler));
+  print_field("genus", census.genus ? with_commas(*census.genus)
+                                    : fmt::format("not defined: {} (Euler characteristic {})", census.why_no_genus,
+                                                  census.euler));
 }
 
 void add_defects(Json& json, const ooc::MeshCensus& census) {

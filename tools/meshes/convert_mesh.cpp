@@ -1,4 +1,4 @@
-#include "tools/program/convert_mesh.h"
+#include "tools/meshes/convert_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "io/formats/create_mesh.h"
 #include "io/formats/format_detection.h"
 #include "io/formats/format_names.h"
-#include "io/formats/open_mesh.h"
+#include "io/formats/open_input.h"
 #include "io/functions/function_source.h"
 #include "io/functions/mesh_field.h"
 #include "io/images/image_format.h"
@@ -126,7 +126,7 @@ class Conversion {
     if (!names_image && kind_of(*source) == io::MeshFormat::kStreaming) {
       const std::uint64_t bytes = source->file_bytes();
       auto events = io::open_stream(std::move(source), io::name_for_streams(options_.input, format));
-      if (can_copy_events(events->header())) return copy_events(std::move(events), bytes);
+      if (can_copy_events(events->header())) return copy_stream(std::move(events), bytes);
       reader_ = io::make_stream_mesh_reader(std::move(events), read_options(), bytes);
     } else {
       io::ImageOptions image = options_.image;
@@ -148,10 +148,51 @@ class Conversion {
     return format_ == io::StreamFormat::kEvents || header.volume == io::is_volume_name(options_.output);
   }
 
-  Lines copy_events(std::unique_ptr<io::EventReader> events, std::uint64_t bytes) const {
+  // Counts in a head can be wrong, and a reader of a text refuses too few elements. So the stream is copied again then.
+  // If it cannot be read again, such counts are left out.
+  Lines copy_stream(std::unique_ptr<io::EventReader> events, std::uint64_t bytes) const {
+    Lines notes;
+    io::StreamHeader header = events->header();
+    const bool may_have_fewer = header.format.starts_with("SMC");
+    if (may_have_fewer && !input_.can_reopen()) header.vertex_count = header.cell_count = std::nullopt;
+    if (header.box && !is_box(*header.box)) {
+      header.box.reset();
+      notes.emplace_back("left out: the bounding box of the head, whose corners are the wrong way round");
+    }
+    const std::optional<StreamCounts> others = copy_events(std::move(events), header, bytes, notes);
+    if (!others) return notes;
+    header.vertex_count = others->vertices;
+    header.cell_count = others->cells;
+    copy_events(io::open_stream(input_.open(), io::name_for_streams(options_.input, options_.format)), header, bytes,
+                notes);
+    return notes;
+  }
+
+  static bool is_box(const io::StreamBox& box) {
+    return std::ranges::equal(box.min, box.max, [](float min, float max) { return min <= max; });
+  }
+
+  struct StreamCounts {
+    std::uint32_t vertices = 0, cells = 0;
+  };
+  // Whether a file with this head would announce other counts than it has.
+  bool announces_others(const io::StreamHeader& header, const StreamCounts& counts) const {
+    const bool are_patched = format_ == io::StreamFormat::kBlocks, has_counts = format_ != io::StreamFormat::kEvents;
+    const auto differs = [](std::optional<std::uint32_t> announced, std::uint32_t count) {
+      return announced && *announced != count;
+    };
+    return has_counts && !are_patched && input_.can_reopen() &&
+           (differs(header.vertex_count, counts.vertices) || differs(header.cell_count, counts.cells));
+  }
+
+  // Writes the file, unless it would announce wrong counts: then these are returned. In SMC they may be wrong by the
+  // vertices in no triangle, which it leaves out.
+  std::optional<StreamCounts> copy_events(std::unique_ptr<io::EventReader> events, const io::StreamHeader& header,
+                                          std::uint64_t bytes, Lines& notes) const {
     constexpr std::uint64_t kEventsBetweenUpdates = 4096;
     if (format_ == io::StreamFormat::kCompressed) events = io::in_pre_order(std::move(events));
-    const auto writer = io::create_stream(options_.output, events->header(), options_.existing);
+    StreamCounts counts;
+    const auto writer = io::create_stream(options_.output, header, options_.existing);
     MemoryBudget budget(options_.memory_bytes);
     Reservation reader_memory = budget.reserve("mesh reader", 0);
     for (std::uint64_t n = 0;; ++n) {
@@ -159,15 +200,18 @@ class Conversion {
       const io::StreamEvent* event = events->next();
       if (event == nullptr) break;
       writer->write(*event);
+      if (event->kind == io::EventKind::kVertex) ++counts.vertices;
+      if (event->kind == io::EventKind::kTriangle || event->kind == io::EventKind::kTetrahedron) ++counts.cells;
       if (n % kEventsBetweenUpdates != 0) continue;
       reader_memory.resize(events->memory_bytes());
       bar_.update({"converting"}, events->bytes_read(), bytes);
     }
     input_.check_unchanged();
+    if (announces_others(header, counts)) return counts;
     writer->close();
-    Lines notes = events->warnings();
+    append(notes, events->warnings());
     append(notes, writer->warnings());
-    return notes;
+    return {};
   }
 
   bool has_volume_image() const {
