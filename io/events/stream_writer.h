@@ -37,8 +37,9 @@ class StreamWriter {
 // Text: SMA or (if header.volume) SVA. Uses the counts, box, comments, volume and numbers of values of the header;
 // unknown ones are left out of the file.
 std::unique_ptr<StreamWriter> make_text_writer(std::ostream& out, const StreamHeader& header);
-// Little endian: SMB or (if header.volume) SVB. Counts that are not known yet are patched in at the end if the output
-// can seek. A finalization that is not directly after a cell of its vertex cannot be stored: it is dropped and counted.
+// Little endian: SMB or (if header.volume) SVB. Counts that are wrong or not known yet are patched in at the end if the
+// output can seek. A finalization that is not directly after a cell of its vertex cannot be stored: it is dropped and
+// counted.
 std::unique_ptr<StreamWriter> make_block_writer(std::ostream& out, const StreamHeader& header);
 
 struct SmcOptions {

@@ -30,7 +30,8 @@ constexpr Mark kMarks[] = {
     {"Kaydara FBX Binary"sv, {"an FBX scene"}},
     {"\x89HDF\r\n"sv, {"an HDF5 file"}},
     {"\x89REEB\r\n"sv,
-     other("a Reeb graph", "name the mesh; `reeb info` and `reeb extract` read Reeb graphs, but not from a pipe")},
+     other("a Reeb graph",
+           "name the mesh that it was computed from; `reeb info FILE` and `reeb extract FILE` read Reeb graphs")},
     {"REEBFRG\n"sv, other("a fragment", "`reeb glue` makes a Reeb graph of the fragments of all parts")},
     {"REEBNAM\n"sv, other("a file of names of `reeb fragment --scan`", "`reeb fragment --shared` reads it")},
     {"version https://git-lfs.github.com/"sv,
@@ -46,6 +47,7 @@ constexpr Mark kMarks[] = {
     {"7z\xBC\xAF\x27\x1C"sv, other("a 7-Zip archive", "unpack it first")},
     {"\xFD\x37zXZ"sv, other("packed with xz", "unpack it first")},
     {"BZh"sv, other("packed with bzip2", "unpack it first")},
+    {"\x04\x22\x4D\x18"sv, other("packed with LZ4", "unpack it first")},
     {"DICM"sv, other("a DICOM slice", "convert the series to NRRD or NIfTI"), 128},
     {"ustar"sv, other("a tar archive", "unpack it first"), 257},
 };

@@ -16,6 +16,7 @@
 #include "io/images/image_format.h"
 #include "io/mesh/scalar_bytes.h"
 #include "io/streaming/open_stream.h"
+#include "io/streaming/text_head.h"
 
 namespace reeb::io {
 namespace {
@@ -72,8 +73,6 @@ bool starts_with_solid(std::string_view head) {
   return std::ranges::equal(word, kSolid, [](char a, char b) { return (a | 0x20) == b; });
 }
 
-constexpr std::array<std::string_view, 6> kStreamingKeys = {"nverts", "nfaces", "ncells", "bb_min", "bb_max", "svtype"};
-
 // Streaming meshes announce themselves in comments before their first line.
 bool has_streaming_comment(std::string_view text) {
   while (!text.empty()) {
@@ -81,10 +80,7 @@ bool has_streaming_comment(std::string_view text) {
     const std::string_view word = first_word(line);
     if (word.empty()) continue;
     if (!word.starts_with('#')) return false;
-    const std::string_view key = first_word(line.substr(line.find('#') + 1));
-    if (std::ranges::find(kStreamingKeys, key) != kStreamingKeys.end() || key.starts_with("v_p") ||
-        key.starts_with("c_p"))
-      return true;
+    if (is_head_keyword(first_word(line.substr(line.find('#') + 1)))) return true;
   }
   return false;
 }
@@ -202,7 +198,8 @@ std::optional<MarkedContent> marked_content(ContentSource& source, std::size_t m
   const std::string_view head = without_byte_order_mark(source.view(0, min_bytes));
   const auto mesh = [](MeshFormat format) { return MarkedContent{format, format_name(format)}; };
   if (head.starts_with("ply") && (head.size() == 3 || is_blank_or_line_end(head[3]))) return mesh(MeshFormat::kPly);
-  if (has_binary_stl_size(head, source.size())) return mesh(MeshFormat::kBinaryStl);
+  // A streaming mesh can have that size by chance.
+  if (has_binary_stl_size(head, source.size()) && !is_streaming_binary(head)) return mesh(MeshFormat::kBinaryStl);
   if (const auto image = image_format_of(head)) return MarkedContent{MeshFormat::kUnknown, image_name(*image)};
   if (head.starts_with("# vtk DataFile")) return mesh(MeshFormat::kVtkLegacy);
   if (is_vtk_xml_mesh(head)) return mesh(MeshFormat::kVtkXml);
@@ -223,6 +220,7 @@ MeshFormat detect_format(ContentSource& source, const std::string& path) {
   if (const auto marked = marked_content(source)) return marked->format;
   const std::string_view head = without_byte_order_mark(source.view(0));
   if (parse_off_keyword(first_word(skip_comments(head)))) return MeshFormat::kOff;
+  if (has_binary_stl_size(head, source.size()) && content_suffix(path) == ".stl") return MeshFormat::kBinaryStl;
   if (is_streaming_binary(head) || has_streaming_comment(head)) return MeshFormat::kStreaming;
   const bool text = is_text(head);
   if (starts_with_solid(head)) return text ? MeshFormat::kAsciiStl : MeshFormat::kBinaryStl;

@@ -10,7 +10,7 @@
 namespace reeb::io {
 namespace {
 
-constexpr std::int32_t kMaxComments = 65535, kMaxCommentBytes = 1 << 20;
+constexpr std::int32_t kMaxCommentBytes = 1 << 20;
 constexpr std::size_t kMaxHeadBytes = 64u << 20;
 constexpr std::size_t kJudgedBlocks = 64;
 // Both readings look at this many bytes in one view.
@@ -45,7 +45,8 @@ std::int32_t read_comment_count(Cursor& cursor, HeadReading& reading) {
   }
   const std::int32_t count = load_scalar<std::int32_t>(cursor.data(), reading.swap);
   reading.end += 4;
-  if (count < 0 || count > kMaxComments) reading.refuse("comment count " + std::to_string(count) + " is not plausible");
+  if (count < 0 || static_cast<std::size_t>(count) > kMaxComments)
+    reading.refuse("comment count " + std::to_string(count) + " is not plausible");
   return reading.is_plausible() ? count : 0;
 }
 

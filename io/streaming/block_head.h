@@ -5,12 +5,15 @@
 // no sense, it overrules the mark.
 #pragma once
 
+#include <cstddef>
+
 #include "io/events/stream_event.h"
 #include "io/text/cursor.h"
 
 namespace reeb::io {
 
 inline constexpr std::size_t kBlockElements = 32;
+inline constexpr std::size_t kMaxComments = 65535;
 
 struct BlockHead {
   StreamHeader header;

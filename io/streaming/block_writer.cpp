@@ -28,15 +28,20 @@ class BlockWriter : public HeldCellWriter {
   }
 
   std::vector<std::string> warnings() const override {
-    if (dropped_ == 0) return {};
-    return {"left out: " + count_of(dropped_, "finalization") + " apart from the last cell of the vertex"};
+    std::vector<std::string> all;
+    if (dropped_ != 0)
+      all.push_back("left out: " + count_of(dropped_, "finalization") + " apart from the last cell of the vertex");
+    if (header_.comments.size() > kMaxComments)
+      all.push_back("left out: " + count_of(header_.comments.size() - kMaxComments, "comment") + " of the head");
+    return all;
   }
 
  private:
   void write_head() {
     out_.text().append({header_.volume ? '\4' : '\0', '\0', '\0', '\0'});
-    out_.append_word(static_cast<std::uint32_t>(header_.comments.size()));
-    for (const std::string& comment : header_.comments) {
+    const auto comments = std::span(header_.comments).first(std::min(header_.comments.size(), kMaxComments));
+    out_.append_word(static_cast<std::uint32_t>(comments.size()));
+    for (const std::string& comment : comments) {
       out_.append_word(static_cast<std::uint32_t>(comment.size()));
       out_.text() += comment;
     }
@@ -59,12 +64,13 @@ class BlockWriter : public HeldCellWriter {
   }
 
   void patch_counts() {
-    if ((header_.vertex_count && header_.cell_count) || counts_at_ == std::streampos(-1)) return;
+    const bool are_right = header_.vertex_count == vertices() && header_.cell_count == cells();
+    if (are_right || counts_at_ == std::streampos(-1)) return;
     std::ostream& stream = out_.stream();
     const std::streampos end = stream.tellp();
     stream.seekp(counts_at_);
-    out_.append_word(header_.vertex_count.value_or(vertices()));
-    out_.append_word(header_.cell_count.value_or(cells()));
+    out_.append_word(vertices());
+    out_.append_word(cells());
     out_.flush();
     stream.seekp(end);
   }

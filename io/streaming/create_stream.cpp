@@ -77,8 +77,9 @@ class StreamFile : public StreamWriter {
   StreamFile(const std::string& path, const StreamHeader& header, Existing existing)
       : path_(path),
         file_(path, {.existing = existing, .overwrites = stream_format(path) == StreamFormat::kBlocks}),
-        out_(file_.out()),
-        writer_(make_writer(stream_format(path), out_, header)) {}
+        out_(file_.out()) {
+    naming_file([&] { writer_ = make_writer(stream_format(path_), out_, header); });
+  }
 
   void write(const StreamEvent& event) override {
     naming_file([&] { writer_->write(event); });

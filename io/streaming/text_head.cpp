@@ -1,10 +1,27 @@
 #include "io/streaming/text_head.h"
 
+#include <algorithm>
+
 #include "io/events/stream_fault.h"
 #include "io/streaming/text_lines.h"
 #include "io/text/words.h"
 
 namespace reeb::io {
+namespace {
+
+constexpr std::string_view kKeywords[] = {"nverts", "nfaces", "ncells", "bb_min", "bb_max"};
+constexpr std::string_view kVolumeKeywords[] = {"svtype",   "v_pnum_f", "v_pnum_i", "v_pmin_f", "v_pmin_i",
+                                                "v_pmax_f", "v_pmax_i", "c_pnum_f", "c_pnum_i", "c_pmin_f",
+                                                "c_pmin_i", "c_pmax_f", "c_pmax_i"};
+
+}  // namespace
+
+bool is_volume_keyword(std::string_view word) {
+  return std::ranges::find(kVolumeKeywords, word) != std::ranges::end(kVolumeKeywords);
+}
+bool is_head_keyword(std::string_view word) {
+  return std::ranges::find(kKeywords, word) != std::ranges::end(kKeywords) || is_volume_keyword(word);
+}
 
 void TextHead::fail_here(const std::string& what, std::size_t column) const {
   fail(Fault::kBadHeader, what, std::to_string(number_) + ":" + std::to_string(column));
@@ -16,6 +33,7 @@ void TextHead::read_line(std::string_view line, std::uint64_t number) {
   LineCursor cursor(line, 1);
   const std::string_view word = cursor.word();
   if (read_keyword(line, word, cursor.column() - 1 + word.size())) return;
+  if (word == "ncells") cells_line_ = {std::string(line), number, header_.comments.size()};
   const std::string_view comment = trimmed(line.substr(1));
   struct Place {
     const TextHead& head;
@@ -26,13 +44,14 @@ void TextHead::read_line(std::string_view line, std::uint64_t number) {
 }
 
 bool TextHead::read_keyword(std::string_view line, std::string_view word, std::size_t after) {
-  const bool volume_word = word == "svtype" || word.starts_with("v_p") || word.starts_with("c_p");
+  const bool volume_word = is_volume_keyword(word);
   if (volume_word) header_.volume = true;
-  if (word == "nverts")
+  if (word == "nverts") {
     read_count(after, header_.vertex_count);
-  else if (word == "ncells" || (word == "nfaces" && !header_.volume))
+  } else if (word == (header_.volume ? "ncells" : "nfaces")) {
     read_count(after, header_.cell_count);
-  else if (word == "v_pnum_f")
+    counts_faces_ = !header_.volume;
+  } else if (word == "v_pnum_f")
     read_width(after, header_.vertex_floats, 3);
   else if (word == "v_pnum_i")
     read_width(after, header_.vertex_ints, 0);
@@ -83,7 +102,17 @@ void TextHead::read_corner(std::size_t after, std::array<float, 3>& corner, bool
   seen = true;
 }
 
+// A keyword that makes it a volume mesh can follow its counts.
 void TextHead::finish() {
+  if (header_.volume && counts_faces_) header_.cell_count.reset();
+  if (header_.volume && cells_line_) {
+    header_.comments.erase(header_.comments.begin() + static_cast<std::ptrdiff_t>(cells_line_->comment));
+    line_ = cells_line_->text;
+    number_ = cells_line_->number;
+    LineCursor cursor(line_, 1);
+    const std::string_view word = cursor.word();
+    read_count(cursor.column() - 1 + word.size(), header_.cell_count);
+  }
   if (has_min_ && has_max_) header_.box = box_;
   header_.format = header_.volume ? "SVA" : "SMA";
 }

@@ -1,7 +1,10 @@
 // The "#" lines before the body of an SMA or SVA file.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -9,6 +12,10 @@
 #include "io/text/entry_limit.h"
 
 namespace reeb::io {
+
+// Whether the first word of a "#" line means more than a comment: in the head of either kind, or of SVA only.
+bool is_head_keyword(std::string_view word);
+bool is_volume_keyword(std::string_view word);
 
 // Collects the head line by line. A file is a volume mesh (SVA) as soon as a keyword says so.
 class TextHead {
@@ -32,6 +39,13 @@ class TextHead {
   std::uint64_t number_ = 0;
   StreamBox box_{};
   bool has_min_ = false, has_max_ = false;
+  bool counts_faces_ = false;  // the count of cells is that of "nfaces"
+  struct Line {
+    std::string text;
+    std::uint64_t number;
+    std::size_t comment;  // its place among the comments
+  };
+  std::optional<Line> cells_line_;                 // "ncells" before it is known whether that is a keyword
   EntryLimit comment_limit_{"comments", 160'000};  // 16 MB of text
 };
 

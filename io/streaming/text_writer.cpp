@@ -1,5 +1,7 @@
 // SMA and SVA.
 #include "io/events/held_cell_writer.h"
+#include "io/streaming/text_head.h"
+#include "io/streaming/text_lines.h"
 #include "io/text/number_text.h"
 
 namespace reeb::io {
@@ -28,7 +30,8 @@ class TextWriter : public HeldCellWriter {
       write_width("c_pnum_f", header_.cell_floats, 0);
       write_width("c_pnum_i", header_.cell_ints, 0);
     }
-    if (header_.box) {
+    // Of four floats, a box of three would say that there are three.
+    if (header_.box && header_.vertex_floats == 3) {
       write_corner("bb_min", header_.box->min);
       write_corner("bb_max", header_.box->max);
     }
@@ -36,7 +39,8 @@ class TextWriter : public HeldCellWriter {
       std::string line = comment.substr(0, kMaxComment);
       for (char& c : line)
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
-      text.append("# ").append(line).append("\n");
+      LineCursor cursor(line, 0);
+      text.append(is_head_keyword(cursor.word()) ? "# : " : "# ").append(line).append("\n");
     }
   }
   void write_count(const char* keyword, const std::optional<std::uint32_t>& count) {

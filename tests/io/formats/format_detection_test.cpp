@@ -3,6 +3,9 @@
 
 #include <unistd.h>
 
+#include <cstdint>
+
+#include "io/formats/format_names.h"
 #include "io/images/image_format.h"
 #include "tests/io/formats/mesh_files.h"
 #include "tests/io/images/nifti_files.h"
@@ -26,6 +29,27 @@ TEST(FormatDetection, ByContent) {
   EXPECT_EQ(detect("# by hand\n\n\tmtllib a.mtl\n"), MeshFormat::kObj);
   EXPECT_EQ(detect("$ stray\nv 1 2 3\n"), MeshFormat::kObj);
   EXPECT_EQ(detect("dear v all\n"), MeshFormat::kUnknown);
+}
+
+// One triangle in post-order, with a comment of eleven bytes. Its last word, a coordinate, is 0: a binary STL file of
+// 84 bytes has no facets.
+TEST(FormatDetection, AStreamOfTheSizeOfABinaryStlFile) {
+  std::string bytes(4, '\0');
+  const auto put = [&bytes](auto word) { bytes.append(reinterpret_cast<const char*>(&word), sizeof word); };
+  for (const std::uint32_t word : {1u, 11u}) put(word);
+  bytes += "eleven char";
+  for (const std::uint32_t word : {3u, 1u}) put(word);
+  bytes += '\0';
+  for (const std::uint32_t word : {0b1110u, 1u, 2u, 3u}) put(word);
+  for (const float x : {0.F, 0.F, 1.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F}) put(x);
+  ASSERT_EQ(bytes.size(), 84u);
+  EXPECT_EQ(detect(bytes), MeshFormat::kStreaming);
+  EXPECT_EQ(detect(bytes, "a.smb"), MeshFormat::kStreaming);
+  const std::string path = write_file("chosen", bytes);
+  EXPECT_EQ(chosen_format("smb", *open_content(path)), MeshFormat::kStreaming);
+  // Some programs leave what was in memory as the title of an STL file.
+  EXPECT_EQ(detect(bytes, "a.stl"), MeshFormat::kBinaryStl);
+  EXPECT_EQ(chosen_format("stl", *open_content(path)), MeshFormat::kBinaryStl);
 }
 
 TEST(FormatDetection, StreamingTextAgainstObj) {

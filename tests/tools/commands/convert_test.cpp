@@ -288,6 +288,67 @@ TEST_F(Convert, AListOfEventsThatCannotBeWrittenIsAnError) {
 }
 
 // All cells wait for their vertices, 12 bytes each at least.
+// SMC leaves out the two vertices in no triangle, but its head announces all 14.
+TEST_F(Convert, CountsOfAHeadAreThoseOfTheStream) {
+  expect_success("convert " + sample("vertsfirst.le.smb") + " a.smc --force");
+  const auto announces = [&](const std::string& mesh) {
+    const Outcome outcome = reeb("compute " + mesh + " -o announced.reeb --force");
+    EXPECT_EQ(outcome.exit_code, 0) << mesh << outcome.error;
+    EXPECT_EQ(outcome.error.find("COUNT"), std::string::npos) << mesh << outcome.error;
+    return nlohmann::json::parse(reeb("info --json " + mesh).output)["vertices"];
+  };
+  for (const std::string suffix : {".sma", ".smb", ".smc"}) {
+    expect_success("convert a.smc again" + suffix);
+    EXPECT_EQ(announces("again" + suffix), 12) << suffix;
+    expect_success("convert - piped" + suffix + " <a.smc");
+    EXPECT_EQ(announces("piped" + suffix), 12) << suffix;
+  }
+  expect_success("convert " + sample("tetra.more-than-promised.pre.sma") + " more.smb");
+  EXPECT_EQ(announces("more.smb"), 4);
+}
+
+TEST_F(Convert, ACommentIsNoKeywordInAnotherFormat) {
+  const std::string body = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  // SMB: byte order, reserved, one comment, counts, no box, the elements v v v f.
+  for (const std::string comment :
+       {"nverts by laser scan", "svtype tet", "nfaces 77", "v_pnum_f 4", "bb_min is wrong"}) {
+    std::string bytes(4, '\0');
+    const auto put = [&bytes](auto word) { bytes.append(reinterpret_cast<const char*>(&word), sizeof word); };
+    put(std::uint32_t{1});
+    put(static_cast<std::uint32_t>(comment.size()));
+    bytes += comment;
+    put(std::uint32_t{3});
+    put(std::uint32_t{1});
+    bytes += '\0';
+    put(std::uint32_t{0b0111});
+    for (const float x : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F}) put(x);
+    for (const std::int32_t corner : {1, 2, 3}) put(corner);
+    write("c.smb", bytes);
+    expect_success("convert c.smb c.sma --force");
+    const nlohmann::json info = info_of("c.sma");
+    EXPECT_EQ(info["vertices"], 3) << comment;
+    EXPECT_EQ(info["simplices"][2], 1) << comment;
+    EXPECT_NE(text("c.sma").find(comment), std::string::npos);
+  }
+  for (const std::string comment : {"# v_precision 9", "# c_path /data", "# ncells 100"}) {
+    write("c.sma", comment + "\n" + body);
+    EXPECT_EQ(info_of("c.sma")["simplices"][2], 1) << comment;
+  }
+  write("c.obj", "# v_precision 9\n" + body);
+  EXPECT_EQ(info_of("c.obj")["format"], "OBJ");
+  // A keyword may come after a count that is one only with it.
+  write("c.sva", "# nfaces 9\n# ncells 2\n# svtype tet\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nc 1 2 3 4\n");
+  EXPECT_NE(reeb("info c.sva").error.find("TRUNCATED: file ends after 1 of 2"), std::string::npos);
+}
+
+TEST_F(Convert, ABoxThatIsNoneIsLeftOut) {
+  write("box.sma", "# bb_min 5 5 5\n# bb_max 0 0 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  for (const std::string suffix : {".smb", ".smc", ".sma"}) {
+    expect_success("convert box.sma boxed" + suffix);
+    EXPECT_EQ(info_of("boxed" + suffix)["simplices"][2], 1) << suffix;
+  }
+}
+
 TEST_F(Convert, APostOrderStreamThatDoesNotFitIntoMemoryIsAnError) {
   std::string stream;
   for (int i = 0; i < 400000; ++i) stream += "f 1 2 3\n";
