@@ -110,8 +110,8 @@ void choose_in_cluster(const ooc::CollectedSurface& surface, std::vector<Candida
     if (candidate.testable) {
       std::vector<const Candidate*> near;
       for (const std::uint32_t other : taken.meeting(candidate.ball)) near.push_back(&all[other]);
-      // Nothing near: it is no boundary by itself, since another curve crosses it once. Functions often find the same
-      // path, or one beside it, which a small patch shows.
+      // A curve alone bounds something if no other one crosses it. Functions often find the same path, or one beside
+      // it, which a small patch shows.
       const auto known_in = [&](double share) -> std::optional<bool> {
         const auto smaller = [&](ooc::Ball ball) {
           ball.radius *= share;
@@ -125,7 +125,7 @@ void choose_in_cluster(const ooc::CollectedSurface& surface, std::vector<Candida
       };
       const auto is_same = [&](const Candidate* other) { return same_path(*other, candidate); };
       if (near.empty())
-        candidate.taken = true;
+        candidate.taken = !known_in(1).value_or(false);
       else if (std::ranges::any_of(near, is_same) || known_in(0.5).value_or(false))
         candidate.taken = false;
       else if (const auto known = known_in(1))

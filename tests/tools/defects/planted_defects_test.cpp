@@ -9,12 +9,16 @@
 #include <map>
 #include <mutex>
 #include <numbers>
+#include <numeric>
 #include <random>
+#include <set>
 #include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include "io/formats/open_mesh.h"
 #include "tests/support/inputs/planted_mesh.h"
 #include "tests/support/scratch.h"
 #include "tests/tools/program.h"
@@ -527,6 +531,53 @@ TEST_F(PlantedDefects, TheirCensusIsInterruptedAtAnyTime) {
         EXPECT_EQ(error.kind(), ErrorKind::kInterrupted);
       }
     }
+  }
+}
+
+// The components of triangles, where no path leads over these edges.
+std::size_t pieces(const std::vector<std::array<std::uint64_t, 3>>& triangles,
+                   const std::set<std::pair<std::uint64_t, std::uint64_t>>& cut) {
+  std::vector<std::size_t> up(triangles.size());
+  std::iota(up.begin(), up.end(), std::size_t{0});
+  const auto top = [&up](std::size_t t) {
+    while (up[t] != t) t = up[t] = up[up[t]];
+    return t;
+  };
+  std::map<std::pair<std::uint64_t, std::uint64_t>, std::size_t> of_edge;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::pair edge = std::minmax({triangles[t][k], triangles[t][(k + 1) % 3]});
+      if (cut.contains(edge)) continue;
+      const auto [other, is_new] = of_edge.emplace(edge, t);
+      if (!is_new) up[top(t)] = top(other->second);
+    }
+  std::size_t count = 0;
+  for (std::size_t t = 0; t < up.size(); ++t) count += up[t] == t ? 1u : 0u;
+  return count;
+}
+
+// The isosurface of a random image, genus 15. The first row had a curve around a disc of 28 triangles.
+TEST_F(PlantedDefects, NoCurveDividesTheSurface) {
+  const std::string path = REEB_SOURCE_DIR "/tests/golden/defects/dividing_curve.off.gz";
+  std::vector<std::array<std::uint64_t, 3>> triangles;
+  const auto reader = io::open_mesh(path);
+  for (MeshBatch batch; reader->read(batch);)
+    for (std::size_t i = 0; i < batch.triangles().size(); i += 3)
+      triangles.push_back(
+          {batch.triangles()[i].value(), batch.triangles()[i + 1].value(), batch.triangles()[i + 2].value()});
+  ASSERT_EQ(triangles.size(), 2720u);
+  const std::size_t whole = pieces(triangles, {});
+  FindDefectsOptions options;
+  options.mesh.path = path;
+  options.mesh.temp_folder = temp_folder();
+  const Defects defects = find_defects(options);
+  EXPECT_EQ(defects.table.rows.size(), 15u);
+  for (const DefectRow& row : defects.table.rows) {
+    std::set<std::pair<std::uint64_t, std::uint64_t>> edges;
+    for (std::size_t i = 0; i < row.curve.path.size(); ++i)
+      edges.insert(std::minmax({row.curve.path[i].value(), row.curve.path[(i + 1) % row.curve.path.size()].value()}));
+    EXPECT_GE(edges.size(), 3u);
+    EXPECT_EQ(pieces(triangles, edges), whole) << "a curve of length " << row.length();
   }
 }
 
