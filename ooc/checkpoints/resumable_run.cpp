@@ -40,7 +40,8 @@ void ResumableRun::refuse_to_discard(const std::string& mesh) {
                 "continue it with --resume, or discard it with --force")
         .at(folder_->path());
   if (load.is_of_another_run)
-    throw Error(ErrorKind::kBadInput, "an interrupted run with another mesh, function or option left its state here",
+    throw Error(ErrorKind::kBadInput,
+                "an interrupted run with another mesh, part, function or option left its state here",
                 "choose another output with -o, or discard that run with --force")
         .at(folder_->path());
 }

@@ -96,10 +96,11 @@ bool StreamChunks::hardly_finalizes() const {
 void StreamChunks::pass_over(const ChunkPlace& start) {
   Chunk chunk;
   std::vector<std::vector<double>> values;
-  while (!ended_ && batches_ < start.batches) {
+  while (!ended_ && !given_up_ && batches_ < start.batches) {
     read_batch();
     if (chunker_.chunk_size() >= size_.size() || batches_ == start.batches) chunker_.take(chunk, values);
   }
+  if (given_up_) return;
   if (batches_ != start.batches || simplices_read_ != start.triangles || chunker_.vertex_bound() != start.next_vertex ||
       (batches_ != 0 && digest_.value() != start.digest))
     throw input_changed();

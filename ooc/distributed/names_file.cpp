@@ -69,9 +69,11 @@ NamesHeader read_header(const io::File& file, const WholeMeshInfo& mesh) {
   if (header.parts != own.parts)
     fail(file,
          "this file of names is of " + std::to_string(header.parts) + " parts, not of " + std::to_string(own.parts), 0);
-  if (header.part >= header.parts || (file.size() - sizeof(header)) / sizeof(Run) != header.runs ||
-      (file.size() - sizeof(header)) % sizeof(Run) != 0)
+  const std::uint64_t bytes = file.size() - sizeof(header);
+  if (header.part >= header.parts || bytes / sizeof(Run) < header.runs)
     fail(file, "this file of names was cut off", file.size());
+  if (bytes / sizeof(Run) > header.runs || bytes % sizeof(Run) != 0)
+    fail(file, "this file of names is damaged: it is too long", sizeof(header) + header.runs * sizeof(Run));
   return header;
 }
 
@@ -179,7 +181,9 @@ PartUses read_names(std::span<const std::string> files, RunContext& run, const W
     const io::File file = io::File::open_for_reading(path);
     merge_names(file, read_header(file, mesh.info), table);
   }
-  return uses_of_table(std::move(table), mesh.info.shares);
+  return uses_of_table(std::move(table), mesh.info.shares,
+                       input_changed("the files of names are of other content than the mesh",
+                                     "make them again with --scan, and then all parts"));
 }
 
 }  // namespace reeb::ooc

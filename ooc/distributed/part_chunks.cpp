@@ -27,7 +27,7 @@ bool PartChunks::next_triangles(WorkItem& item) {
   Chunk& chunk = item.chunk;
   ids_.assign(chunk.ids.begin(), chunk.ids.end());
   mesh_.from_original(ids_);
-  uses_.find(ids_, spans_);
+  uses_.find(ids_, part_, spans_);
   for (std::size_t i = 0; i < spans_.size(); ++i)
     if (spans_[i].reaches_beyond(part_)) chunk.uses[i] = kUsedEarlier | kUsedLater;
   end_ = item.end;

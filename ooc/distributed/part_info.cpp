@@ -72,7 +72,6 @@ void write_info(StateWriter& out, const PartInfo& info) {
 }
 
 PartInfo read_info(StateReader& in) {
-  constexpr std::uint64_t kMostBuckets = 1u << 20;
   const auto number = [&] { return in.get<std::uint64_t>(); };
   PartInfo info;
   WholeMeshInfo& mesh = info.mesh;

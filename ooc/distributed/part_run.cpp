@@ -26,7 +26,8 @@ PartInfo info_of(const WholeMesh& mesh, const VertexFunction& function, std::uin
 }
 
 // The live graph is held as well while it is copied.
-void copy_open(RunContext& run, const Glue& glue, const IndexedMesh& mesh, PartUses& uses, FinishedPart& finished) {
+void copy_open(RunContext& run, const Glue& glue, const IndexedMesh& mesh, PartUses& uses, std::uint32_t part,
+               FinishedPart& finished) {
   const std::size_t span_bytes = glue.graph().node_count() * sizeof(PartSpan);
   finished.memory = run.budget.reserve("open part", glue.copy_bytes() + span_bytes);
   OpenPart& open = finished.open;
@@ -36,7 +37,7 @@ void copy_open(RunContext& run, const Glue& glue, const IndexedMesh& mesh, PartU
     if (node.uses != kUsedHereOnly) ids.push_back(node.key.vertex);
   mesh.from_original(ids);
   std::vector<PartSpan> spans;
-  uses.find(ids, spans);
+  uses.find(ids, part, spans);
   open.spans.assign(open.live.nodes.size(), {});
   std::size_t next = 0;
   for (std::size_t n = 0; n < open.live.nodes.size(); ++n)
@@ -76,7 +77,9 @@ PartResult run_part(RunContext& run, const MeshInput& input, WholeMesh& mesh, Pa
 
   for (const VertexFunction* function : run.functions)
     result.parts.push_back({info_of(mesh, *function, part, wanted), {}, {}});
-  const auto at_end = [&](std::size_t f, const Glue& glue) { copy_open(run, glue, *mesh.mesh, uses, result.parts[f]); };
+  const auto at_end = [&](std::size_t f, const Glue& glue) {
+    copy_open(run, glue, *mesh.mesh, uses, part, result.parts[f]);
+  };
   const FirstStageResult first = glue_chunks(run, chunks, ordered.plan, here, {}, at_end);
   run.check_inputs();
   for (std::size_t f = 0; f < run.functions.size(); ++f) {

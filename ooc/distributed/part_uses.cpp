@@ -11,11 +11,16 @@ PartSpan PartUses::span_of(UseEntry entry) const {
   return {shares_.part_of(first * block), shares_.part_of((entry.last_block() + std::uint64_t{1}) * block - 1)};
 }
 
-void PartUses::find(std::span<const VertexId> ids, std::vector<PartSpan>& spans) {
+void PartUses::find(std::span<const VertexId> ids, std::uint32_t part, std::vector<PartSpan>& spans) {
   entries_.resize(ids.size());
   uses_.lookup(ids, entries_);
   spans.resize(ids.size());
-  for (std::size_t i = 0; i < ids.size(); ++i) spans[i] = span_of(UseEntry(entries_[i]));
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const UseEntry entry(entries_[i]);
+    if (entry.unused()) throw if_wrong_;
+    spans[i] = span_of(entry);
+    if (part < spans[i].first || part > spans[i].last) throw if_wrong_;
+  }
 }
 
 bool PartUses::find_unused(std::uint64_t& first, std::uint64_t end, std::size_t limit, std::vector<VertexId>& ids) {

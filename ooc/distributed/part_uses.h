@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "libreeb/base/error.h"
 #include "libreeb/base/ids.h"
 #include "libreeb/parts/part_set.h"
 #include "ooc/chunks/last_use.h"
@@ -17,11 +18,14 @@ namespace reeb::ooc {
 // both.
 class PartUses {
  public:
-  PartUses(LastUse uses, const Shares& shares) : uses_(std::move(uses)), shares_(shares) {}
+  // `if_wrong` is thrown where a share names a vertex that it does not name here.
+  PartUses(LastUse uses, const Shares& shares, Error if_wrong = input_changed())
+      : uses_(std::move(uses)), shares_(shares), if_wrong_(std::move(if_wrong)) {}
 
   const Shares& shares() const { return shares_; }
-  // spans[i] is that of ids[i]. REQUIRES: each is named by a share.
-  void find(std::span<const VertexId> ids, std::vector<PartSpan>& spans);
+  // spans[i] is that of ids[i]. REQUIRES: this share names each of them.
+  // THROWS: Error{kChanged} if it does not do so here.
+  void find(std::span<const VertexId> ids, std::uint32_t part, std::vector<PartSpan>& spans);
   // Replaces `ids` by the next vertices from `first` to before `end` that no share names, at most `limit`, and moves
   // `first` on. False at the end.
   bool find_unused(std::uint64_t& first, std::uint64_t end, std::size_t limit, std::vector<VertexId>& ids);
@@ -31,6 +35,7 @@ class PartUses {
 
   LastUse uses_;
   Shares shares_;
+  Error if_wrong_;
   std::vector<std::uint32_t> entries_;
 };
 

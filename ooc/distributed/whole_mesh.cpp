@@ -64,7 +64,10 @@ PartUses find_part_uses(RunContext& run, const MeshInput& input, WholeMesh& mesh
     SidecarLoad known =
         load_sidecar(sidecar, identify_mesh(input.path), shares.vertices, run.temp, run.budget, run.plan.table_bytes);
     if (known.uses && !fits(*known.uses)) count_if_guessed();
-    if (known.uses && fits(*known.uses)) return {std::move(*known.uses), shares};
+    if (known.uses && fits(*known.uses))
+      return {std::move(*known.uses), shares,
+              input_changed("the sidecar " + sidecar + " is of other content than the mesh",
+                            "remove the sidecar, and make all parts again")};
     if (!known.note.empty()) mesh.notes.push_back(known.note);
   }
   const auto scan = [&] {
@@ -88,12 +91,12 @@ PagedTable<std::uint32_t> empty_uses(RunContext& run) {
   return {"last uses", run.temp, run.budget, run.plan.table_bytes, UseEntry::kUnused};
 }
 
-PartUses uses_of_table(PagedTable<std::uint32_t> table, const Shares& shares) {
+PartUses uses_of_table(PagedTable<std::uint32_t> table, const Shares& shares, Error if_wrong) {
   UseSummary summary;
   summary.vertex_count = shares.vertices;
   summary.triangle_count = shares.triangles;
   summary.block_triangles = shares.size();
-  return {LastUse(std::move(summary), std::move(table)), shares};
+  return {LastUse(std::move(summary), std::move(table)), shares, std::move(if_wrong)};
 }
 
 }  // namespace reeb::ooc

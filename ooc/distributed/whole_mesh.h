@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "libreeb/base/error.h"
 #include "libreeb/port/indexed_mesh.h"
 #include "ooc/distributed/part_info.h"
 #include "ooc/distributed/part_uses.h"
@@ -39,7 +40,7 @@ PartUses find_part_uses(RunContext& run, const MeshInput& input, WholeMesh& mesh
 
 // An empty table of uses by shares, to be filled with UseEntry::used_by().
 PagedTable<std::uint32_t> empty_uses(RunContext& run);
-// A table that was filled.
-PartUses uses_of_table(PagedTable<std::uint32_t> table, const Shares& shares);
+// A table that was filled. `if_wrong` as in PartUses.
+PartUses uses_of_table(PagedTable<std::uint32_t> table, const Shares& shares, Error if_wrong = input_changed());
 
 }  // namespace reeb::ooc

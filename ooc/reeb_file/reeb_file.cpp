@@ -3,6 +3,7 @@
 #include <array>
 #include <cstring>
 #include <optional>
+#include <ranges>
 
 #include "io/file/file.h"
 #include "libreeb/base/count_text.h"
@@ -57,6 +58,17 @@ std::uint32_t finest_within(const FrameFile& file, std::uint64_t limit, const Me
       .at(file.path());
 }
 
+bool is_whole(const FrameFile& file, std::size_t frame) {
+  try {
+    FrameHeader header;
+    FrameFile::Buffers buffers;
+    (void)file.read_frame(frame, header, buffers);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 bool is_reeb_file(std::span<const std::byte> bytes) {
@@ -103,11 +115,16 @@ std::uint32_t ReebFile::version_at(double threshold) const {
 
 std::uint32_t ReebFile::finest_with_nodes(std::uint64_t limit) const {
   require_hierarchy("levels");
-  // A finer level has more nodes. So nothing beyond this one is read, where a file may be cut.
-  for (const LevelLine& level : header().levels)
-    if (level.nodes == limit) return level.version;
-  return finest_within(
-      *frames_, limit, [](std::uint64_t nodes, std::uint64_t) { return nodes; }, "nodes");
+  try {
+    return finest_within(
+        *frames_, limit, [](std::uint64_t nodes, std::uint64_t) { return nodes; }, "nodes");
+  } catch (const Error& error) {
+    if (error.cause() == ErrorCause::kUnreadable) throw;
+    // Finer versions with as many nodes may be in a part that is missing or damaged.
+    for (const LevelLine& level : header().levels | std::views::reverse)
+      if (level.nodes == limit && is_whole(*frames_, level.frames - 1)) return level.version;
+    throw;
+  }
 }
 
 std::uint32_t ReebFile::finest_with_memory(std::uint64_t limit) const {

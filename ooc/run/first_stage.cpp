@@ -78,8 +78,7 @@ struct StreamRun {
 // Glues the stream as it comes. It gives up only if the stream can be read again; then the stores are empty.
 StreamRun run_stream(RunContext& run, const MeshInput& input, const Checkpoint* start, FirstStageResult result) {
   std::optional<std::uint64_t> most_active_vertices;
-  if (run.options.may_reorder && input.read_again && start == nullptr)
-    most_active_vertices = run.plan.most_live_vertices();
+  if (run.options.may_reorder && input.read_again) most_active_vertices = run.plan.most_live_vertices();
   const auto source =
       chunks_of(*input.reader, run.values, run.budget, run.plan.chunk, place_of(start), most_active_vertices);
   result = glue_chunks(run, *source, run.plan, {.origin = ChunkOrigin::kStream}, std::move(result));

@@ -79,6 +79,10 @@ code=0
 "$reeb_mpi" scan.ply 2> error.txt || code=$?
 expect_failure "a mesh without a command" 2
 grep -q "^hint: write reeb-mpi compute scan.ply -o OUT.reeb" error.txt || fail "no hint: $(cat error.txt)"
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 1\nodd line\nf 1 2 3\n' > odd.obj
+mpi 2 odd.obj -o odd.reeb -f laplacian:1 2> error.txt > output.txt
+grep -q "1 unknown line was skipped" output.txt error.txt || fail "no note on the line: $(cat output.txt error.txt)"
+grep -q "eigenvalue" output.txt error.txt || fail "no note on the eigenvalue: $(cat output.txt error.txt)"
 code=0
 mpi 2 nothing.ply -o none.reeb 2> error.txt || code=$?
 expect_failure "a missing mesh" 1

@@ -139,11 +139,19 @@ std::vector<RankFigures> gather(World& world, const RankFigures& own) {
   return ranks;
 }
 
-// Computes the share of this rank, and glues it in the tree. Returns, by function, what is known of the parts that this
-// rank glued: of all parts at the root.
-std::vector<ooc::PartInfo> glue_shares(World& world, RunInput& source, std::span<const std::string> outputs,
-                                       const ooc::ComputeOptions& wanted, const ooc::Stopwatch& watch,
-                                       RankFigures& figures) {
+void append(std::vector<std::string>& notes, const std::vector<std::string>& more) {
+  notes.insert(notes.end(), more.begin(), more.end());
+}
+
+struct GluedShares {
+  std::vector<ooc::PartInfo> infos;  // by function
+  std::vector<std::string> notes;    // of the share of this rank
+};
+
+// Computes the share of this rank, and glues it in the tree. Returns what is known of the parts that this rank glued:
+// of all parts at the root.
+GluedShares glue_shares(World& world, RunInput& source, std::span<const std::string> outputs,
+                        const ooc::ComputeOptions& wanted, const ooc::Stopwatch& watch, RankFigures& figures) {
   std::vector<std::string> rank_outputs;
   for (const std::string& output : outputs) rank_outputs.push_back(rank_file(output, world.rank(), RankFile::kShare));
   ooc::MeshInput input = source.take_mesh();
@@ -158,18 +166,18 @@ std::vector<ooc::PartInfo> glue_shares(World& world, RunInput& source, std::span
   figures.triangles = shares.end(world.rank()) - shares.begin(world.rank());
   figures.live_vertices = done.parts[0].info.live.vertices;
   figures.share_ms = static_cast<std::uint64_t>(1000 * watch.seconds());
-  std::vector<ooc::PartInfo> infos;
+  GluedShares glued{{}, std::move(done.notes)};
   for (std::size_t f = 0; f < outputs.size(); ++f) {
     write_settled(rank_outputs[f], done.parts[f].info, *run.stores[f], run.temp.folder());
     run.stores[f].reset();
     const std::uint64_t sent = world.sent_bytes();
-    infos.push_back(
+    glued.infos.push_back(
         glue_in_tree(world, run, std::move(done.parts[f]), rank_file(outputs[f], world.rank(), RankFile::kTree)));
     figures.tree_bytes += world.sent_bytes() - sent;
   }
   world.wait_for_all();
   run.resumable.done();
-  return infos;
+  return glued;
 }
 
 // The second stage, at the root.
@@ -203,11 +211,13 @@ DistributedResult compute_distributed(World& world, const std::string& path, std
   DistributedResult result;
   RankFigures figures;
   const ooc::Stopwatch watch;
-  const std::vector<ooc::PartInfo> infos = glue_shares(world, source, outputs, wanted, watch, figures);
+  const GluedShares glued = glue_shares(world, source, outputs, wanted, watch, figures);
   figures.tree_ms = static_cast<std::uint64_t>(1000 * watch.seconds()) - figures.share_ms;
   for (std::size_t f = 0; f < outputs.size(); ++f) {
     if (world.is_root()) {
-      ComputeResult written = finish_at_root(world.size(), infos[f], outputs[f], wanted);
+      ComputeResult written = finish_at_root(world.size(), glued.infos[f], outputs[f], wanted);
+      if (f == 0) append(written.notes, glued.notes);
+      append(written.notes, source.notes(f));
       written.seconds.wall += watch.seconds();
       result.results.push_back(std::move(written));
       remove_rank_files(outputs[f], true);

@@ -74,6 +74,7 @@ void run_fragment(FragmentArguments arguments) {
   if (arguments.scan && !choice.shared.empty())
     throw Error(ErrorKind::kUsage, "--scan and --shared exclude each other",
                 "make the names of all parts with --scan, then each fragment with --shared");
+  check_functions(arguments.functions);
   const std::vector<std::string> outputs = outputs_of(arguments, choice);
   if (!arguments.quiet)
     for (const std::string& output : outputs)

@@ -41,12 +41,13 @@ void add_run_options(Command command, RunArguments& arguments, const RunTexts& t
             "Embed arcs in at least N buckets of value (default: 64; 0: no embedding)", {.most = kMostBuckets});
   add_image_options(command, arguments.options.image);
   add_threads(command, options.threads, texts.threads);
-  add_count(command, "--chunk", options.chunk_triangles, "Triangles per chunk (default: adaptive)", {.least = 1});
+  add_count(command, "--chunk", options.chunk_triangles,
+            "Triangles per chunk, or vertices per box of an image (default: adaptive)", {.least = 1});
   add_temp_dir(command, options.temp_dir);
   command.add_flag(
       "--no-reorder", [&options] { options.may_reorder = false; }, "Do not sort incoherent meshes on disk first");
   command.add_flag("--resume", options.resume, "Continue an interrupted run from its folder OUT.partial");
-  command.add_flag("--quiet", arguments.quiet, "Print no progress and no summary");
+  add_quiet(command, arguments.quiet);
   add_force(command, options.replace, "Replace existing outputs, and discard an interrupted run");
 }
 
@@ -77,14 +78,17 @@ std::vector<std::string> output_names(std::filesystem::path output, const std::v
   return names;
 }
 
+void check_functions(const std::vector<std::string>& functions) {
+  for (const std::string& function : functions)
+    if (std::ranges::count(functions, function) > 1)
+      throw Error(ErrorKind::kBadInput, "-f " + function + " is given twice", "name each function once");
+}
+
 void check_files(const RunArguments& arguments, const std::vector<std::string>& outputs, const std::string& report) {
   std::vector<io::FunctionSpec> functions;
-  for (const std::string& function : arguments.functions) {
-    if (function.empty()) continue;
-    functions.push_back(io::parse_function(function));
-    if (std::ranges::count(arguments.functions, function) > 1)
-      throw Error(ErrorKind::kBadInput, "-f " + function + " is given twice", "name each function once");
-  }
+  for (const std::string& function : arguments.functions)
+    if (!function.empty()) functions.push_back(io::parse_function(function));
+  check_functions(arguments.functions);
   RunFiles files = files_of_run(arguments.mesh, functions, outputs, arguments.options);
   if (!report.empty())
     files.add_output(report, "the report", existing_outputs(arguments.options.replace), "with --report FILE");

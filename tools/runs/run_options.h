@@ -39,6 +39,8 @@ void take_denoise(RunArguments& arguments);
 // THROWS: Error{kUsage} if several would go to standard output or a device.
 std::vector<std::string> output_names(std::filesystem::path output, const std::vector<std::string>& functions,
                                       std::string_view suffix = ".reeb");
+// THROWS: Error{kBadInput} if a function is given twice.
+void check_functions(const std::vector<std::string>& functions);
 // Checks the files of a run before it begins, with its report (empty: none), which compute() does not know.
 // THROWS: as RunFiles::check().
 void check_files(const RunArguments& arguments, const std::vector<std::string>& outputs, const std::string& report);

@@ -62,8 +62,8 @@ void write_ply(const std::string& path, const ModelMesh& mesh, bool binary) {
   write_file(path, out.str());
 }
 
-// A streaming mesh: a vertex comes when a triangle needs it, and is finalized with the last triangle that does.
-void write_stream(const std::string& path, const ModelMesh& mesh) {
+// A streaming mesh: a vertex comes when a triangle needs it, and may be finalized with the last triangle that does.
+void write_stream(const std::string& path, const ModelMesh& mesh, bool finalizes = true) {
   std::vector<std::size_t> last_use(mesh.vertex_count(), 0);
   for (std::size_t i = 0; i < mesh.corners.size(); ++i) last_use[mesh.corners[i].value()] = i / 3;
   const auto writer = io::create_mesh(path, {.existing = io::Existing::kReplace});
@@ -78,7 +78,7 @@ void write_stream(const std::string& path, const ModelMesh& mesh) {
     std::uint64_t end = at_end ? mesh.vertex_count() : next;
     for (const VertexId v : batch.triangles()) {
       end = std::max(end, v.value() + 1);
-      if (last_use[v.value()] == t &&
+      if (finalizes && last_use[v.value()] == t &&
           std::find(batch.finalized.begin(), batch.finalized.end(), v) == batch.finalized.end())
         batch.finalized.push_back(v);
     }
@@ -136,6 +136,7 @@ class Runs {
 
   ComputeOptions options;
   ReadOptions reading;
+  bool may_read_again = false;       // a stream
   std::function<void()> watch = {};  // called after each chunk
 
   // Runs to the end. Returns the bytes of the output, which is then removed.
@@ -173,6 +174,7 @@ class Runs {
     io::FunctionSource function(io::parse_function(function_), input.reader->info(), {}, input.path);
     input.indexed = input.reader->indexed();
     if (input.indexed) input.reader.reset();
+    if (may_read_again) input.read_again = [this] { return io::open_mesh(mesh_path(), reading); };
     VertexFunction* functions[] = {&function};
     const std::string outputs[] = {output()};
     std::atomic<std::uint64_t> done = 0;  // other threads ask whether to end
@@ -325,6 +327,29 @@ TEST(Resume, KeepsToTheOrderInWhichTheRunBegan) {
     Notes notes;
     ASSERT_EQ(runs.finish(true, notes), expected) << "after chunk " << n;
     EXPECT_NE(testing::PrintToString(notes).find("sorted on disk"), std::string::npos);
+  }
+}
+
+// Where a stream is hopeless does not depend on where the run was interrupted.
+TEST(Resume, GivesAStreamUpWhereAnUninterruptedRunDoes) {
+  const ModelMesh mesh = grid_mesh(150, 150);
+  Runs runs(mesh, Form::kStream, "random:3");
+  write_stream(runs.mesh_path(), mesh, false);
+  runs.may_read_again = true;
+  runs.reading.batch_events = 500;
+  runs.options.chunk_triangles = 1000;
+  runs.options.threads = 1;
+  runs.options.buckets = 16;
+  const auto gives_up = [](const Notes& notes) {
+    return testing::PrintToString(notes).find("so it was read again") != std::string::npos;
+  };
+  Notes notes;
+  const std::string expected = runs.finish(false, notes);
+  ASSERT_TRUE(gives_up(notes)) << testing::PrintToString(notes);
+  for (const std::uint64_t n : {1u, 3u}) {
+    ASSERT_TRUE(runs.stop_after(n, false));
+    ASSERT_EQ(runs.finish(true, notes), expected) << "after chunk " << n;
+    EXPECT_TRUE(gives_up(notes)) << testing::PrintToString(notes);
   }
 }
 

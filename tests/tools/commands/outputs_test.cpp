@@ -179,6 +179,7 @@ TEST_F(Outputs, NoTwoOutputsAreOneFile) {
   expect_refused({"compute", "mesh.off", "-o", "x.out", "--report", "./x.out"},
                  "./x.out: the report and the output are the same file");
   expect_refused({"compute", "mesh.off", "-f", "x", "-f", "x", "-o", "m.reeb"}, "-f x is given twice");
+  expect_refused({"fragment", "mesh.off", "-f", "x", "-f", "x", "--part", "1/2"}, "-f x is given twice");
   expect_refused({"compute", "mesh.off", "-o", "-", "--report", "-"}, "-: the report and the output");
   expect_refused({"compute", "mesh.off", "-o", "o.reeb", "--snapshot-every", "1", "--report", "o-000007.reeb"},
                  "o-000007.reeb: the report has the name of a snapshot");

@@ -57,6 +57,20 @@ TEST_F(Simplices, ASierpinskiSimplexHasItsLoopsForEveryCoordinate) {
     }
 }
 
+// A circle of edges and an edge. After its loop is cancelled, the circle still has two nodes, which are one arc then.
+TEST_F(Simplices, TheFinestOfLevelsWithAsManyNodesIsTaken) {
+  write("circle.cx", "v 0 0 0\nv 1 0 1\nv 2 0 3\nv 0 1 4\nv 5 0 0\nv 5 1 9\ns 0 1\ns 1 3\ns 0 2\ns 2 3\ns 4 5\n");
+  expect_success(reeb({"circle.cx", "-o", "circle.reeb"}));
+  const auto arcs = [this](const std::vector<std::string>& level) {
+    std::vector<std::string> words = {"extract", "circle.reeb", "--format", "rg"};
+    words.insert(words.end(), level.begin(), level.end());
+    return lines_after("a ", reeb(words).output).size();
+  };
+  EXPECT_EQ(arcs({}), 3u);
+  EXPECT_EQ(arcs({"--threshold", "5"}), 2u);
+  for (const char* nodes : {"4", "5"}) EXPECT_EQ(arcs({"--nodes", nodes}), 3u) << nodes;
+}
+
 TEST_F(Simplices, AManifoldHasTheSameGraphAndNoThirdTriangle) {
   expect_success(reeb({"generate", "scan", "--triangles", "20k", "--order", "random", "-o", "scan.ply"}));
   std::vector<std::string> words = {"compute", "scan.ply", "--buckets", "0", "--quiet", "--force", "--chunk", "500"};
