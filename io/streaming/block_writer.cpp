@@ -1,4 +1,12 @@
 // SMB and SVB.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
 #include "io/events/format_limits.h"
 #include "io/events/held_cell_writer.h"
 #include "io/streaming/block_head.h"

@@ -140,6 +140,17 @@ TEST_F(CommandLine, AWordTooManyNamesTheOptionThatMayBeMissing) {
                "unexpected argument: % (write a percentage without a blank, as 5%)");
 }
 
+TEST_F(CommandLine, OptionsOfImagesNeedAMesh) {
+  expect_success(reeb({"mesh.off"}));
+  for (const std::vector<std::string>& option : std::vector<std::vector<std::string>>{
+           {"--grid", "2x2"}, {"--type", "u8"}, {"--spacing", "1,1"}, {"--skip", "4"}, {"--nodata", "skip"}})
+    for (const char* command : {"extract", "verify"}) {
+      std::vector<std::string> words = {command, "mesh.reeb"};
+      words.insert(words.end(), option.begin(), option.end());
+      expect_error(reeb(words), 2, "--grid, --type, --spacing, --skip and --nodata say how a mesh is read");
+    }
+}
+
 TEST_F(CommandLine, OptionsOfTheProgramAreGivenWithoutACommand) {
   const Outcome outcome = reeb({"extract", "--version"});
   expect_error(outcome, 2, "--version is given without a command");

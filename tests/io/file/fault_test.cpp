@@ -94,6 +94,32 @@ TEST_P(Faults, EachIsReportedAndLeavesNothing) {
 }
 INSTANTIATE_TEST_SUITE_P(Existing, Faults, testing::Values(Existing::kRefuse, Existing::kReplace));
 
+// After a power failure there is the old output or the whole new one: the content is on the device before it has the
+// name, and the name before commit() returns.
+TEST(Fault, AnOutputIsOnTheDeviceBeforeItHasItsName) {
+  for (const Existing existing : {Existing::kRefuse, Existing::kReplace}) {
+    const Scratch scratch;
+    std::string calls;
+    AtomicFile file(scratch.path() + "/out", {.existing = existing});
+    file.out().append(pattern(1000));
+    const ScopedFileFaults faults([&calls](FileCall call) {
+      if (call == FileCall::kWrite) calls += 'w';
+      if (call == FileCall::kSync) calls += 's';
+      if (call == FileCall::kRename) calls += 'r';
+      return FileFault{};
+    });
+    file.commit();
+    EXPECT_EQ(calls, "wsrs");
+  }
+}
+
+TEST(Fault, AWriteThatTakesNothingIsAFullDisk) {
+  const Scratch scratch;
+  const ScopedFileFaults faults(FaultAtCall(FileCall::kWrite, 1, {.most_bytes = 0}));
+  EXPECT_THROW(use_files(scratch.path(), Existing::kRefuse), Error);
+  EXPECT_TRUE(scratch.empty());
+}
+
 TEST(Fault, WhatIsInterruptedIsCalledAgain) {
   const Scratch scratch;
   std::uint64_t calls = 0;

@@ -65,11 +65,14 @@ std::string off(const std::string& head = "OFF\n4 4 6\n") {
   return text.str();
 }
 
-std::string binary_off() {
-  std::string bytes = "OFF BINARY\n";
+// Each vertex has so many further numbers, which are not read.
+std::string binary_off(const std::string& keyword = "OFF", int further = 0) {
+  std::string bytes = keyword + " BINARY\n";
   for (const std::int32_t count : {4, 4, 6}) bytes += scalar_bytes(count, true);
-  for (const auto& v : kTetrahedron.vertices)
+  for (const auto& v : kTetrahedron.vertices) {
     for (const double x : v) bytes += scalar_bytes(static_cast<float>(x), true);
+    for (int i = 0; i < further; ++i) bytes += scalar_bytes(0.25F, true);
+  }
   for (const auto& t : kTetrahedron.triangles) {
     bytes += scalar_bytes(std::int32_t{3}, true);
     for (const auto corner : t) bytes += scalar_bytes(static_cast<std::int32_t>(corner), true);
@@ -378,6 +381,25 @@ TEST(Ply, TypesOrderExtrasAndStrips) {
   EXPECT_EQ(reader->info().property_names, (std::vector<std::string>{"red", "quality"}));
   read_all(*reader);
   EXPECT_EQ(reader->warnings().size(), 2u) << "the quality that is not finite, of vertices 1 and 3; and edges";
+}
+
+TEST(Off, BinaryVerticesHaveNormalsColoursAndTexture) {
+  for (const auto& [keyword, further] : {std::pair("NOFF", 3), std::pair("COFF", 4), std::pair("STOFF", 2),
+                                         std::pair("CNOFF", 7), std::pair("STCNOFF", 9)}) {
+    const Mesh mesh = read_mesh(write_file("further.off", binary_off(keyword, further)));
+    EXPECT_EQ(mesh, kTetrahedron) << keyword;
+  }
+}
+
+TEST(Ply, NumbersOfATextFitTheirDeclaredType) {
+  std::string head = "ply\nformat ascii 1.0\nelement vertex 300\nproperty float x\nelement face 1\n", vertices;
+  for (int i = 0; i < 300; ++i) vertices += "0\n";
+  for (const std::string more : {"", "property uchar colour\n"}) {
+    const std::string begin = head + "property list uchar uchar vertex_indices\n" + more + "end_header\n" + vertices;
+    const std::string end = more.empty() ? "\n" : " 7\n";
+    EXPECT_EQ(read_mesh(write_file("fits.ply", begin + "3 0 1 255" + end)).triangles.size(), 1u);
+    expect_bad(write_file("large.ply", begin + "3 0 1 256" + end), {}, "256 does not fit its declared type");
+  }
 }
 
 TEST(Ply, FacesBeforeVertices) {

@@ -91,6 +91,10 @@ TEST(FunctionValues, OfEveryKind) {
   EXPECT_EQ(values_of(source("file:" + write_file("v.txt", "1e3 # a\n\n-0\r\n"))), (std::vector<double>{1000, 0}));
   const std::string raw = write_file("v.f64", scalar_bytes(2.5) + scalar_bytes(-1.0));
   EXPECT_EQ(values_of(source("file:" + raw)), (std::vector<double>{2.5, -1}));
+  for (const std::string& zero : {write_file("zero.f64", scalar_bytes(-0.0) + scalar_bytes(1.0)),
+                                  write_file("zero.npy", npy("<f8", "(2,)", scalar_bytes(-0.0) + scalar_bytes(1.0))),
+                                  write_file("zero.txt", "-0\n1\n")})
+    EXPECT_FALSE(std::signbit(values_of(source("file:" + zero))[0])) << zero;
   // The output of splitmix64 for the seed 0 is well known, and mix(0) is its first number.
   EXPECT_EQ(random_value(0, 0 - 0xe220a8397b1dcdafu), static_cast<double>(0xe220a8397b1dcdafu >> 11) * 0x1p-53);
 }

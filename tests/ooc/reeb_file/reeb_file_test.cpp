@@ -4,14 +4,21 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <random>
 #include <tuple>
+#include <utility>
+#include <vector>
 
+#include "io/file/checksum.h"
 #include "libreeb/base/error.h"
+#include "libreeb/format/reeb_format.h"
 #include "ooc/reeb_writer/reeb_file_writer.h"
 #include "tests/ooc/reeb_file/made_up_hierarchy.h"
 #include "tests/support/files.h"
@@ -382,6 +389,68 @@ TEST(ReebFile, AnEmbeddingThatLosesOrMakesVerticesIsNoticed) {
   wrong = made.buckets;
   wrong.buckets.back().count += 1'000'000;
   EXPECT_THROW(verify(meta_of(made), wrong), Error) << "a later version has more than the mesh";
+}
+
+// Headers with the right checksum (FORMAT.md), each with one number that is not that of the content.
+TEST(ReebFile, EachNumberOfTheHeaderIsVerified) {
+  const TemporaryFolder folder;
+  const MadeUp made = MadeUpMaker(6).make(20'000, 40'000, 8'000);
+  const std::string path = folder / "a.reeb";
+  write_hierarchy_file(path, meta_of(made), made.graph, made.hierarchy, made.buckets.view());
+  const std::string bytes = read_file(path);
+  FileHeader header;
+  {
+    const ReebFile file(path);
+    ASSERT_NO_THROW(file.verify());
+    header = file.header();
+  }
+  const auto last = header.levels.size() - 1;
+  ASSERT_GE(header.levels[last].frames, 3u);
+  using Lie = std::function<void(FileHeader&)>;
+  const std::vector<std::pair<const char*, Lie>> lies = {
+      {"nothing", [](FileHeader&) {}},
+      {"nodes", [](FileHeader& h) { ++h.nodes; }},
+      {"arcs", [](FileHeader& h) { --h.arcs; }},
+      {"components", [](FileHeader& h) { ++h.components; }},
+      {"loops", [](FileHeader& h) { ++h.loops; }},
+      {"records", [](FileHeader& h) { ++h.records; }},
+      {"kept loops", [](FileHeader& h) { ++h.kept_loops; }},
+      {"vertices", [](FileHeader& h) { ++h.mesh_vertices; }},
+      {"digest", [](FileHeader& h) { h.content_digest ^= 1; }},
+      {"nodes of a level", [&](FileHeader& h) { --h.levels[last - 1].nodes; }},
+      {"arcs of a level", [&](FileHeader& h) { --h.levels[last - 1].arcs; }},
+      {"buckets of a level", [&](FileHeader& h) { --h.levels[last - 1].buckets; }},
+      {"memory of a level", [&](FileHeader& h) { h.levels[last - 1].memory_bytes -= 8; }},
+      {"bytes of a level", [&](FileHeader& h) { --h.levels[last - 1].file_bytes; }},
+      {"threshold of a level",
+       [&](FileHeader& h) { h.levels[last - 1].threshold = std::nextafter(h.levels[last - 1].threshold, 1e300); }},
+      {"fewer frames",
+       [&](FileHeader& h) {
+         h.levels[last].frames = h.levels[last - 1].frames;
+         h.levels[last].file_bytes = h.levels[last - 1].file_bytes;
+       }},
+      {"frames that are not needed",
+       [&](FileHeader& h) {
+         h.levels[last - 1].frames = h.levels[last].frames;
+         h.levels[last - 1].file_bytes = h.levels[last].file_bytes;
+       }},
+  };
+  for (const auto& [name, lie] : lies) {
+    FileHeader forged = header;
+    lie(forged);
+    std::vector<std::byte> region;
+    encode_header(forged, region);
+    const std::uint64_t checksum = io::checksum(region);
+    ASSERT_EQ(region.size() + sizeof checksum, header.region_bytes());
+    std::string begin(reinterpret_cast<const char*>(region.data()), region.size());
+    for (int shift = 0; shift < 64; shift += 8) begin += static_cast<char>(checksum >> shift);
+    write_bytes(folder / "forged.reeb", begin + bytes.substr(begin.size()));
+    const auto verify = [&] { ReebFile(folder / "forged.reeb").verify(); };
+    if (forged == header)
+      EXPECT_NO_THROW(verify()) << name;
+    else
+      EXPECT_THROW(verify(), Error) << name;
+  }
 }
 
 TEST(ReebFile, ACutFileYieldsTheLevelsOfItsWholeFrames) {

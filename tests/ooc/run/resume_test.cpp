@@ -17,10 +17,12 @@
 #include <utility>
 #include <vector>
 
+#include "io/file/fault.h"
 #include "io/formats/create_mesh.h"
 #include "io/formats/open_mesh.h"
 #include "io/functions/function_source.h"
 #include "libreeb/base/error.h"
+#include "ooc/checkpoints/checkpoint.h"
 #include "ooc/checkpoints/partial_folder.h"
 #include "ooc/run/compute.h"
 #include "tests/ooc/chunks/model_mesh.h"
@@ -448,6 +450,23 @@ TEST(Resume, IgnoresACheckpointOfAnotherMeshOrFunction) {
   EXPECT_NE(notes.at(0).find("other functions"), std::string::npos) << notes[0];
   EXPECT_EQ(runs.finish(false), of_x);
 
+  // The same function by name, of other values.
+  const Scratch values_folder;
+  const std::string values = values_folder.path() + "/values.f64";
+  const auto write_values = [&](double step) {
+    std::vector<double> numbers(400);
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = step * static_cast<double>(i * 7 % 400);
+    write_file(values, std::string(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)));
+  };
+  write_values(1);
+  runs.set_function("file:" + values);
+  ASSERT_TRUE(runs.stop_after(2, false));
+  write_values(-2);
+  const std::string of_values = runs.finish(true, notes);
+  EXPECT_NE(notes.at(0).find("other functions"), std::string::npos) << notes[0];
+  EXPECT_EQ(runs.finish(false), of_values);
+  runs.set_function("x");
+
   ASSERT_TRUE(runs.stop_after(2, false));
   runs.write(grid_mesh(25, 16));
   const std::string of_other = runs.finish(true, notes);
@@ -722,6 +741,21 @@ TEST(Resume, KeepsCheckpointsAlongTheWayOnlyWhenTheyAreDue) {
     EXPECT_EQ(runs.finish(true, notes), expected);
     EXPECT_NE(notes.at(0).find("continues from there"), std::string::npos) << notes[0];
   }
+}
+
+// After a power failure there is the checkpoint before or the whole new one: first the names of the files that it needs
+// are on the device, then its content, then its name.
+TEST(Resume, ACheckpointIsOnTheDeviceBeforeItHasItsName) {
+  const Scratch scratch;
+  std::string calls;
+  const io::ScopedFileFaults faults([&calls](io::FileCall call) {
+    if (call == io::FileCall::kWrite) calls += 'w';
+    if (call == io::FileCall::kSync) calls += 's';
+    if (call == io::FileCall::kRename) calls += 'r';
+    return io::FileFault{};
+  });
+  write_checkpoint(scratch.path() + "/checkpoint", {}, Checkpoint{}, [&calls](StateWriter&) { calls += '|'; });
+  EXPECT_EQ(calls, "|swsrs");
 }
 
 TEST(PartialFolder, BelongsToOneRunAtATime) {

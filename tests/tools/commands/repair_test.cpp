@@ -235,6 +235,45 @@ TEST_F(RepairTest, ComponentsAreThoseWithoutTheTrianglesThatAreDropped) {
   EXPECT_EQ(ply("o.ply").vertices.size(), 4u);
 }
 
+// A share of the largest component: what has fewer triangles than that is dropped.
+TEST_F(RepairTest, ComponentsOfJustTheShareAreNotDropped) {
+  PlainSurface mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {3, 0, 0}, {4, 0, 0}, {3, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {1, 3, 2}, {4, 5, 6}};
+  write("d.off", to_off(mesh));
+  for (const auto& [share, triangles] : {std::pair("50%", 3u), std::pair("51%", 2u), std::pair("100%", 2u)}) {
+    expect_success(reeb({"repair", "d.off", "-o", "o.ply", "--longest", "0", "--drop-components", share, "--force"}));
+    EXPECT_EQ(ply("o.ply").triangles.size(), triangles) << share;
+  }
+}
+
+// Three faces of a tetrahedron have one boundary. That of a component that is dropped is none, and triangles that are
+// listed twice have none of their own.
+TEST_F(RepairTest, BoundariesAreThoseOfWhatStays) {
+  PlainSurface open;
+  open.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  open.triangles = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  const auto boundaries = [&](const PlainSurface& mesh, const std::vector<std::string>& options) {
+    write("d.off", to_off(mesh));
+    std::vector<std::string> words = {"repair", "d.off",   "-o",    "o.ply",    "--longest", "0", "--fill-boundaries",
+                                      "10",     "--force", "--log", "log.json", "--quiet"};
+    words.insert(words.end(), options.begin(), options.end());
+    expect_success(reeb(words));
+    return std::pair(json("log.json")["boundaries_filled"].get<int>(), json("log.json")["boundaries_left"].size());
+  };
+  EXPECT_EQ(boundaries(open, {}), std::pair(1, std::size_t{0}));
+  PlainSurface twice = open;
+  twice.triangles.insert(twice.triangles.end(), open.triangles.begin(), open.triangles.end());
+  EXPECT_EQ(boundaries(twice, {"--drop-duplicates"}), std::pair(1, std::size_t{0}));
+  const auto [filled, left] = boundaries(twice, {});
+  EXPECT_EQ(static_cast<std::size_t>(filled) + left, 1u) << "the same boundary, whatever becomes of it";
+  PlainSurface two = open;
+  for (const auto& place : {std::array{9., 0., 0.}, std::array{10., 0., 0.}, std::array{9., 1., 0.}})
+    two.vertices.push_back(place);
+  two.triangles.push_back({4, 5, 6});
+  EXPECT_EQ(boundaries(two, {"--drop-components", "50%"}), std::pair(1, std::size_t{0}));
+}
+
 // `info` prints the length of each boundary; its sums have other last digits.
 TEST_F(RepairTest, FillsBoundariesOfTheLengthThatInfoPrints) {
   for (int seed = 0; seed < 20; ++seed) {
@@ -652,8 +691,12 @@ TEST_F(RepairTest, RefusesWhatItCannotDo) {
   for (const char* output : {"p.sma", "p.events.txt", "p.cx"})
     expect_error(reeb({"repair", "t.ply", "-o", output}), 2, output);
   EXPECT_EQ(reeb({"repair", "-", "-o", "p.ply"}).exit_code, 2);
-  // An undo file of another mesh, or damaged.
+  // An undo file of another mesh, or of this one with another coordinate, or damaged.
   EXPECT_EQ(reeb({"repair", "t.ply", "--apply-undo", "o.undo", "-o", "p.ply"}).exit_code, 1);
+  std::string moved = file("o.ply");
+  moved[moved.find("end_header\n") + 11] ^= 1;
+  write("moved.ply", moved);
+  expect_error(reeb({"repair", "moved.ply", "--apply-undo", "o.undo", "-o", "p.ply"}), 1, "moved.ply: ");
   for (const std::string choice :
        {"--all", "--limit=3", "--drop-degenerate", "--drop-duplicates", "--below=1%", "--longest=1", "--loops=o.csv",
         "--drop-components=1%", "--fill-boundaries=1", "--log=l.json", "--undo=u"})
