@@ -153,7 +153,7 @@ TEST_F(CommandLine, OptionsOfImagesNeedAMesh) {
 
 TEST_F(CommandLine, OptionsOfTheProgramAreGivenWithoutACommand) {
   const Outcome outcome = reeb({"extract", "--version"});
-  expect_error(outcome, 2, "--version is given without a command");
+  expect_error(outcome, 2, "--version is an option of the program, not of a command");
   EXPECT_NE(outcome.error.find("hint: `reeb --version`"), std::string::npos) << outcome.error;
 }
 

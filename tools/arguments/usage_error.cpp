@@ -134,7 +134,7 @@ Error usage_error(const CLI::App& program, const std::vector<std::string>& words
   if (const auto option = unknown_option(*command, words)) {
     const std::vector<std::string> without_command = long_names(program);
     if (std::ranges::find(without_command, *option) != without_command.end())
-      return {ErrorKind::kUsage, *option + " is given without a command",
+      return {ErrorKind::kUsage, *option + " is an option of the program, not of a command",
               "`" + program.get_name() + " " + *option + "`"};
     std::vector<std::string> names = long_names(*command);
     names.insert(names.end(), without_command.begin(), without_command.end());
