@@ -45,13 +45,15 @@ void TextHead::read_line(std::string_view line, std::uint64_t number) {
 
 bool TextHead::read_keyword(std::string_view line, std::string_view word, std::size_t after) {
   const bool volume_word = is_volume_keyword(word);
-  if (volume_word) header_.volume = true;
-  if (word == "nverts") {
+  if (volume_word && !header_.volume) {
+    header_.volume = true;
+    header_.cell_count.reset();  // it was that of faces
+  }
+  if (word == "nverts")
     read_count(after, header_.vertex_count);
-  } else if (word == (header_.volume ? "ncells" : "nfaces")) {
+  else if (word == (header_.volume ? "ncells" : "nfaces"))
     read_count(after, header_.cell_count);
-    counts_faces_ = !header_.volume;
-  } else if (word == "v_pnum_f")
+  else if (word == "v_pnum_f")
     read_width(after, header_.vertex_floats, 3);
   else if (word == "v_pnum_i")
     read_width(after, header_.vertex_ints, 0);
@@ -102,9 +104,8 @@ void TextHead::read_corner(std::size_t after, std::array<float, 3>& corner, bool
   seen = true;
 }
 
-// A keyword that makes it a volume mesh can follow its counts.
+// A keyword that makes it a volume mesh can follow "ncells".
 void TextHead::finish() {
-  if (header_.volume && counts_faces_) header_.cell_count.reset();
   if (header_.volume && cells_line_) {
     header_.comments.erase(header_.comments.begin() + static_cast<std::ptrdiff_t>(cells_line_->comment));
     line_ = cells_line_->text;

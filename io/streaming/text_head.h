@@ -39,7 +39,6 @@ class TextHead {
   std::uint64_t number_ = 0;
   StreamBox box_{};
   bool has_min_ = false, has_max_ = false;
-  bool counts_faces_ = false;  // the count of cells is that of "nfaces"
   struct Line {
     std::string text;
     std::uint64_t number;

@@ -185,8 +185,8 @@ class Conversion {
            (differs(header.vertex_count, counts.vertices) || differs(header.cell_count, counts.cells));
   }
 
-  // Writes the file, unless it would announce wrong counts: then these are returned. In SMC they may be wrong by the
-  // vertices in no triangle, which it leaves out.
+  // Writes the file, unless it would announce wrong counts: then the right ones are returned. In SMC they may be wrong
+  // by the vertices in no triangle, which it leaves out.
   std::optional<StreamCounts> copy_events(std::unique_ptr<io::EventReader> events, const io::StreamHeader& header,
                                           std::uint64_t bytes, Lines& notes) const {
     constexpr std::uint64_t kEventsBetweenUpdates = 4096;

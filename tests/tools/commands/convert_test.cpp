@@ -339,6 +339,10 @@ TEST_F(Convert, ACommentIsNoKeywordInAnotherFormat) {
   // A keyword may come after a count that is one only with it.
   write("c.sva", "# nfaces 9\n# ncells 2\n# svtype tet\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nc 1 2 3 4\n");
   EXPECT_NE(reeb("info c.sva").error.find("TRUNCATED: file ends after 1 of 2"), std::string::npos);
+  write("named", text("c.sva"));
+  EXPECT_NE(reeb("info named").error.find("TRUNCATED: file ends after 1 of 2"), std::string::npos);
+  write("named", "# nfaces 9\n# svtype tet\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nc 1 2 3 4\n");
+  EXPECT_EQ(info_of("named")["simplices"][3], 1);
 }
 
 TEST_F(Convert, ABoxThatIsNoneIsLeftOut) {
