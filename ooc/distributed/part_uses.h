@@ -18,13 +18,13 @@ namespace reeb::ooc {
 // both.
 class PartUses {
  public:
-  // `if_wrong` is thrown where a share names a vertex that it does not name here.
+  // `if_wrong` is thrown where a share names a vertex, but not by this table.
   PartUses(LastUse uses, const Shares& shares, Error if_wrong = input_changed())
       : uses_(std::move(uses)), shares_(shares), if_wrong_(std::move(if_wrong)) {}
 
   const Shares& shares() const { return shares_; }
   // spans[i] is that of ids[i]. REQUIRES: this share names each of them.
-  // THROWS: Error{kChanged} if it does not do so here.
+  // THROWS: `if_wrong`, if the table says otherwise.
   void find(std::span<const VertexId> ids, std::uint32_t part, std::vector<PartSpan>& spans);
   // Replaces `ids` by the next vertices from `first` to before `end` that no share names, at most `limit`, and moves
   // `first` on. False at the end.

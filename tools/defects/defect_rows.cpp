@@ -110,8 +110,8 @@ void choose_in_cluster(const ooc::CollectedSurface& surface, std::vector<Candida
     if (candidate.testable) {
       std::vector<const Candidate*> near;
       for (const std::uint32_t other : taken.meeting(candidate.ball)) near.push_back(&all[other]);
-      // A curve alone bounds something if no other one crosses it. Functions often find the same path, or one beside
-      // it, which a small patch shows.
+      // A curve alone can bound something, unless another one crosses it once. Functions often find the same path, or
+      // one beside it, which a small patch shows.
       const auto known_in = [&](double share) -> std::optional<bool> {
         const auto smaller = [&](ooc::Ball ball) {
           ball.radius *= share;
