@@ -6,7 +6,7 @@
 #   --quick            meshes up to 12 million triangles, less than 3 minutes on a quiet machine (default)
 #   --full             also 28 and 56 million, less than 30 minutes; 5 GB of disk
 #   --huge             also 372 million; 30 GB of disk
-#   --only TABLE,...   these tables: sizes orders extras manifold peers targets
+#   --only TABLE,...   these tables: sizes orders extras manifold peers targets profile
 #   --folder DIR       where meshes and figures are kept (default: build/bench)
 #   --program FILE     measure this program; without it, the release build is brought up to date and measured
 #   --runs N           runs of each command (default: 3; those of 28 million and more: 1 less)

@@ -6,6 +6,7 @@ import shutil
 import sys
 import tempfile
 
+import instructions
 from measure import Failed, figures, run_once
 
 SIZES = {"0.87M": 871414, "7.2M": 7200000, "28M": 28000000, "56M": 56000000, "372M": 372000000}
@@ -15,7 +16,7 @@ ORDERS = ["patches", "rows", "hilbert", "spectral", "random"]
 TILED = ["patches", "rows", "random", "tiles:32", "random-tiles:32", "seams-last:32"]
 GRAPH = ["--graph-only", "--buckets", "0"]
 MEMORY_FOLDER = "/dev/shm"
-TABLES = ["sizes", "orders", "extras", "manifold", "peers", "targets"]
+TABLES = ["sizes", "orders", "extras", "manifold", "peers", "targets", "profile"]
 
 
 def kinds_of(path):
@@ -392,3 +393,24 @@ def targets(bench):
     bench.checked("targets/372M/random-tiles", tiled, *GRAPH, "--memory", "64M", genus=bench.genus(tiled), runs=1,
                   may_fail=True)
     bench.checked("targets/372M/random-tiles-128M", tiled, *GRAPH, "--memory", "128M", genus=bench.genus(tiled), runs=1)
+
+
+def profile(bench):
+    """What the functions execute, without and with an embedding and noise removal."""
+    if bench.mode == "quick":
+        return
+    if shutil.which("callgrind_annotate") is None:
+        bench.say("  valgrind is not there: apt-get install valgrind")
+        return
+    mesh = bench.scan("0.87M")
+
+    def measure(function):
+        counts = []
+        for options in (["--buckets", "0"], ["--denoise", "0.1%"]):
+            command = [bench.program, "compute", mesh, "-f", function, "--graph-only", *options, "--threads", "1",
+                       "--temp-dir", bench.scratch, "--quiet", "--force", "-o", bench.output]
+            counts.append(instructions.counted(command, bench.scratch))
+        return {}, {"functions": instructions.compared(*counts, SIZES["0.87M"])}
+
+    for function in ("z", "random:1"):
+        bench.cell(f"profile/{function}", lambda function=function: measure(function), 1)

@@ -14,6 +14,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import cells  # noqa: E402
 import document  # noqa: E402
 import goals  # noqa: E402
+import instructions  # noqa: E402
 from measure import Failed, Store, figures, median, run_once, summary  # noqa: E402
 
 PROGRAM = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 else "build/release/tools/reeb"
@@ -134,6 +135,41 @@ class SmallRun(unittest.TestCase):
         cells.extras(bench)
         bench.close()
         self.assertEqual([name for name in os.listdir(self.folder) if name.startswith(("bench-", "new-"))], [])
+
+
+class Profile(unittest.TestCase):
+    ANNOTATED = """--------
+Ir
+--------
+1,000 (100.0%)  PROGRAM TOTALS
+
+--------
+Ir              file:function
+--------
+  600 (60.00%)  ???:reeb::Sums::add(std::span<unsigned int const, 5ul>) const [/bin/reeb]
+   90 ( 9.00%)  ./x.c:memcpy [/lib/libc.so.6]
+   60 ( 6.00%)  ???:0x00000000000012a0 [/lib/libzstd.so.1.5.4]
+   50 ( 5.00%)  ???:0x00000000000013a0 [/lib/libzstd.so.1.5.4]
+   40 ( 4.00%)  ???:void std::vector<reeb::Id<A, int>, B>::insert<int*>(int*) [/bin/reeb]
+   10 ( 1.00%)  ???:reeb::io::(anonymous namespace)::Reader::fill(char) [/bin/reeb]
+"""
+
+    def test_functions_by_hand(self):
+        self.assertEqual(instructions.parsed(self.ANNOTATED),
+                         {"reeb::Sums::add": 600, "memcpy": 90, "libzstd (without names)": 110,
+                          "std::vector::insert": 40, "reeb::io::Reader::fill": 10})
+        with self.assertRaisesRegex(Failed, "no function"):
+            instructions.parsed("Ir\n")
+
+    def test_what_is_added_by_hand(self):
+        self.addCleanup(setattr, instructions, "SHOWN", instructions.SHOWN)
+        instructions.SHOWN = 2
+        rows = instructions.compared({"a": 100, "b": 40, "gone": 20}, {"a": 130, "b": 40, "new": 60, "c": 2}, 10)
+        self.assertEqual(rows, [["new", 0, 6], ["a", 10, 13], ["other functions", 6, 4.2], ["all", 16, 23.2]])
+        page = document.profile_tables({"profile/z": {"functions": rows}})
+        for text in ("z: 7 instructions a triangle more, +45.0 %.", "| a | 10.0 | 13.0 | 41.7 % |",
+                     "| other functions | 6.0 | 4.2 | -25.0 % |"):
+            self.assertIn(text, page)
 
 
 class Goals(unittest.TestCase):
