@@ -4,6 +4,8 @@
 // (ooc/chunks/last_use_sidecar.h). It also shows, before the run, how many vertices will be live.
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -11,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/file/checksum.h"
 #include "io/file/temp_dir.h"
 #include "libreeb/base/ids.h"
 #include "libreeb/base/memory_budget.h"
@@ -109,6 +112,51 @@ class LastUse {
  private:
   UseSummary summary_;
   PagedTable<std::uint32_t> table_;
+};
+
+// The first pass over triangles as they come: look_at() and then use() for each of them, and finish().
+//
+// THROWS: Error{kResource} of the budget or the disk.
+// MEMORY: the allowance and 4 bytes per block.   TIME: O(triangles + vertices).
+// THREADS: one may call look_at() and gave_up() while another calls use(); else one at a time.
+class LastUseScan {
+ public:
+  // `triangles_by_size`: as of IndexedMesh, or 0 if it is not known.
+  LastUseScan(std::uint64_t vertex_count, std::uint64_t triangles_by_size, const io::TempDir& temp,
+              MemoryBudget& budget, const LastUseOptions& options);
+
+  // Takes what does not depend on earlier triangles.
+  void look_at(std::span<const VertexId> corners);
+  // `bytes_read`, of the mesh up to here, is for the progress. REQUIRES: it has not given up.
+  void use(std::span<const VertexId> corners, std::uint64_t bytes_read);
+  bool gave_up() const { return gave_up_; }
+  LastUse finish();
+
+ private:
+  void open_block();
+  void close_block(std::uint64_t bytes_read);
+  void use_in_block(std::span<const VertexId> corners);
+  bool is_scattered() const;
+  void double_blocks();
+  void profile_front();
+
+  LastUseOptions options_;
+  PagedTable<std::uint32_t> table_;
+  std::size_t most_blocks_;  // even, so that blocks can be joined in pairs
+  std::uint64_t block_triangles_;
+  std::uint64_t in_block_ = 0;  // triangles of the last block so far
+  std::atomic<bool> gave_up_ = false;
+  Reservation change_charge_;
+  // Of look_at().
+  io::RunningDigest digest_;
+  std::uint64_t degenerate_ = 0;
+  // By block: vertices used first in it, minus those used last.
+  std::vector<std::int32_t> live_change_;
+  // Over the blocks so far, the sum of the vertices known to be live at their ends.
+  std::uint64_t carried_ = 0;
+  std::uint64_t introduced_ = 0;  // vertices used so far
+  std::uint64_t triangles_by_size_;
+  UseSummary summary_;
 };
 
 // The first pass: reads all triangles of `mesh` once, starting at the first. Returns nothing if the options allow

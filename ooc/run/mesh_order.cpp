@@ -29,8 +29,6 @@ constexpr double kHilbertFront = 14;
 constexpr std::uint64_t kQuickShare = 8;
 // Of this share, less than finding pieces; up to this front, whose graph takes some 90 MB where memory is free.
 constexpr std::uint64_t kQuickerShare = 64, kMostOfShare = 131072;
-// The progress bar shows sorting and the scan after it as one pass; sorting is this share of it.
-constexpr double kSorted = 0.9;
 // Of a budget that is free, for the list of pieces.
 constexpr std::uint64_t kPiecesShare = 4, kPieceBytes = 48;
 
@@ -142,6 +140,14 @@ class Ordering {
   }
 
   std::optional<LastUse> scan(IndexedMesh& mesh, bool may_give_up) {
+    LastUseOptions options = scan_options(may_give_up);
+    options.progress = [this, &mesh](std::uint64_t bytes_read) { tell(bytes_read, mesh.bytes_total()); };
+    std::optional<LastUse> uses = scan_last_use(mesh, run_.temp, run_.budget, options);
+    if (uses) check_blocks(*uses);
+    return uses;
+  }
+
+  LastUseOptions scan_options(bool may_give_up) const {
     LastUseOptions options;
     options.allowance_bytes = run_.plan.table_bytes;
     if (may_give_up) {
@@ -152,14 +158,11 @@ class Ordering {
     options.block_triangles = std::min<std::uint64_t>(options.block_triangles, run_.plan.chunk.first);
     if (start_ != nullptr) options.block_triangles = start_->block_triangles;
     options.threads = run_.plan.threads;
-    options.progress = [this, &mesh](std::uint64_t bytes_read) {
-      if (!is_sorted()) return tell(bytes_read, mesh.bytes_total());
-      const auto total = static_cast<double>(std::max<std::uint64_t>(mesh.bytes_total(), 1));
-      tell_sorting(kSorted + (1 - kSorted) * static_cast<double>(bytes_read) / total);
-    };
-    std::optional<LastUse> uses = scan_last_use(mesh, run_.temp, run_.budget, options);
-    if (start_ != nullptr && uses && !has_usual_blocks(uses->summary())) throw DamagedState();
-    return uses;
+    return options;
+  }
+
+  void check_blocks(const LastUse& uses) const {
+    if (start_ != nullptr && !has_usual_blocks(uses.summary())) throw DamagedState();
   }
 
   // ---- pieces in another order
@@ -216,20 +219,33 @@ class Ordering {
     origin_ = run_.plan.fits(front) ? ChunkOrigin::kSorted : ChunkOrigin::kSortedInSlabs;
   }
 
+  // The last uses of the sorted triangles are found while these are stored.
   void sort_on_disk() {
     constexpr std::uint64_t kSortBytesLimit = 64u << 20;
     const Stopwatch watch;
+    std::optional<LastUseScan> scan;
+    const auto start_scan = [&] {
+      scan.emplace(vertices_, 0, run_.temp, run_.budget, scan_options(/*may_give_up=*/false));
+    };
+    const auto use = [&](std::span<const VertexId> corners) {
+      if (!scan) start_scan();
+      scan->look_at(corners);
+      scan->use(corners, 0);
+    };
     auto sorted = reorder(*mesh_, run_.temp, run_.budget,
                           {.allowance_bytes = std::min<std::uint64_t>(run_.budget.free_bytes() / 2, kSortBytesLimit),
                            .coordinates = std::min(input_.dimension, 3u),
                            .threads = run_.threads,
                            .in_slabs = origin_ == ChunkOrigin::kSortedInSlabs,
-                           .progress = [this](double done) { tell_sorting(kSorted * done); }});
+                           .progress = [this](double done) { tell_sorting(done); },
+                           .use = use});
     notes_.push_back("neighbouring triangles lie far apart in this file, so they were sorted on disk first");
     spilled_bytes_ += sorted->spilled_bytes();
     for (const std::string& warning : mesh_->warnings()) notes_.push_back(warning);
     mesh_ = std::move(sorted);
-    uses_ = scan(*mesh_, false);
+    if (!scan) start_scan();  // there are no triangles
+    uses_ = scan->finish();
+    check_blocks(*uses_);
     spilled_bytes_ += uses_->spilled_bytes();
     seconds_.reorder += watch.seconds();
   }

@@ -114,14 +114,29 @@ std::uint32_t PageCache::evict_one() {
       frame.page = kNoPage;
       return victim;
     }
-    if (!file_.is_open()) file_ = temp_->create_unnamed(owner_);
-    file_.write_at(frame.page * kPageBytes, {frame.bytes, kPageBytes});
-    spilled_ += kPageBytes;
-    frame.marks |= kStored;
+    write_from(victim);
   }
   places_[frame.page] = (frame.marks & kStored) != 0 ? kOnDisk : kFresh;
   frame.page = kNoPage;
   return victim;
+}
+
+// Writes the page of a frame, and with it those that follow in memory and in the file and will be next: one call costs
+// less than one for each page.
+void PageCache::write_from(std::size_t first) {
+  const Frame& frame = frames_[first];
+  std::size_t end = first + 1;
+  const auto follows = [&](const Frame& next) {
+    const std::size_t before = end - first;
+    return next.page == frame.page + before && next.bytes == frame.bytes + before * kPageBytes &&
+           (next.marks & (kDirty | kTouched)) == kDirty && !consists_of_usual(next.bytes);
+  };
+  while (end < frames_.size() && follows(frames_[end])) ++end;
+  if (!file_.is_open()) file_ = temp_->create_unnamed(owner_);
+  const std::size_t bytes = (end - first) * kPageBytes;
+  file_.write_at(frame.page * kPageBytes, {frame.bytes, bytes});
+  spilled_ += bytes;
+  for (std::size_t f = first; f < end; ++f) frames_[f].marks = (frames_[f].marks & ~kDirty) | kStored;
 }
 
 // Each pattern after the first is compared with the one before it.

@@ -89,6 +89,7 @@ class PageCache {
   std::uint32_t take_frame();
   bool may_grow();
   std::uint32_t evict_one();
+  void write_from(std::size_t first);
   bool consists_of_usual(const std::byte* bytes) const;
 
   const char* owner_;

@@ -21,27 +21,38 @@ namespace reeb::ooc {
 // and more than once.
 //
 // THROWS: Error{kResource} of the budget or the disk.
-// MEMORY: 16 KiB per part, reserved, and 8 bytes for each 16 KiB written.   THREADS: one at a time.
+// MEMORY: a block per part, reserved, and 8 bytes for each block written.   THREADS: one at a time.
 template <class Record>
 class PartitionLogs {
   static_assert(std::is_trivially_copyable_v<Record>);
 
  public:
-  static constexpr std::size_t kBlockBytes = 16 << 10;
+  static constexpr std::size_t kBlockBytes = 16 << 10;  // unless others are asked for
 
-  PartitionLogs(const char* owner, const io::TempDir& temp, MemoryBudget& budget, std::size_t parts)
-      : charge_(budget.reserve(owner, parts * kBlockBytes)), file_(temp.create_unnamed(owner)), parts_(parts) {
+  PartitionLogs(const char* owner, const io::TempDir& temp, MemoryBudget& budget, std::size_t parts,
+                std::size_t block_bytes = kBlockBytes)
+      : block_records_(block_bytes / sizeof(Record)),
+        charge_(budget.reserve(owner, parts * block_bytes)),
+        file_(temp.create_unnamed(owner)),
+        parts_(parts) {
     for (Part& part : parts_) {
-      part.block = std::make_unique_for_overwrite<Record[]>(kBlockRecords);
+      part.block = std::make_unique_for_overwrite<Record[]>(block_records_);
       part.at = part.block.get();
+      part.full = part.at + block_records_;
     }
+  }
+
+  // The size of blocks for this many parts, which together take at most `bytes` unless even the small ones take more.
+  // Large ones save calls; four times the size saves no more.
+  static std::size_t block_bytes_within(std::uint64_t bytes, std::size_t parts) {
+    return parts * 2 * kBlockBytes <= bytes ? 2 * kBlockBytes : kBlockBytes;
   }
 
   void append(std::size_t index, const Record& record) {
     Part& part = parts_[index];
-    if (part.at == part.block.get() + kBlockRecords) [[unlikely]] {
+    if (part.at == part.full) [[unlikely]] {
       write_block(part);
-      part.written += kBlockRecords;
+      part.written += block_records_;
       part.at = part.block.get();
     }
     *part.at++ = record;
@@ -83,16 +94,16 @@ class PartitionLogs {
       const std::span<Record> records(part.block.get(), static_cast<std::size_t>(part.fetched - first));
       visit(records);
       if (!part.blocks.empty())
-        file_.write_at(part.blocks[static_cast<std::size_t>(first / kBlockRecords)], std::as_bytes(records));
+        file_.write_at(part.blocks[static_cast<std::size_t>(first / block_records_)], std::as_bytes(records));
     }
     rewind(index);
   }
 
  private:
-  static constexpr std::size_t kBlockRecords = kBlockBytes / sizeof(Record);
   struct Part {
     std::unique_ptr<Record[]> block;  // the current one
     Record* at = nullptr;             // in it, where the next record is appended; stays when reading starts
+    const Record* full = nullptr;     // its end
     const Record* next = nullptr;     // in it, to be read; up to `end`
     const Record* end = nullptr;
     std::uint64_t written = 0, fetched = 0;  // records in full blocks of the file, and up to `end`
@@ -114,16 +125,17 @@ class PartitionLogs {
   // only one buffer.
   void fetch(Part& part) {
     const std::uint64_t all = count(part);
-    if (part.blocks.size() * kBlockRecords < all && !part.blocks.empty()) write_block(part);
-    const auto records = static_cast<std::size_t>(std::min<std::uint64_t>(kBlockRecords, all - part.fetched));
+    if (part.blocks.size() * block_records_ < all && !part.blocks.empty()) write_block(part);
+    const auto records = static_cast<std::size_t>(std::min<std::uint64_t>(block_records_, all - part.fetched));
     if (!part.blocks.empty())
-      file_.read_at(part.blocks[static_cast<std::size_t>(part.fetched / kBlockRecords)],
+      file_.read_at(part.blocks[static_cast<std::size_t>(part.fetched / block_records_)],
                     std::as_writable_bytes(std::span(part.block.get(), records)));
     part.next = part.block.get();
     part.end = part.next + records;
     part.fetched += records;
   }
 
+  std::size_t block_records_;
   Reservation charge_;
   io::File file_;
   std::uint64_t size_ = 0;

@@ -55,13 +55,14 @@ class RankedTriangles {
     constexpr std::uint64_t kLeastEntries = 4096, kParts = 64;
     part_bits_ = static_cast<unsigned>(std::bit_width(std::max(kLeastEntries, vertices / kParts)) - 1);
     parts_ = static_cast<std::size_t>((vertices >> part_bits_) + 1);
-    const std::uint64_t logs = lanes * parts_ * Logs::kBlockBytes;
+    const std::size_t block_bytes = Logs::block_bytes_within(sorting.allowance_bytes / 4, lanes * parts_);
+    const std::uint64_t logs = lanes * parts_ * block_bytes;
     if (logs + kUsualTriangles * part_entries() * kTriangleBytes > sorting.allowance_bytes) {
       all_.emplace("reorder", temp, budget, sorting);
       return;
     }
     sorting_.allowance_bytes -= logs;
-    for (std::size_t lane = 0; lane < lanes; ++lane) logs_.emplace_back("reorder", temp, budget, parts_);
+    for (std::size_t lane = 0; lane < lanes; ++lane) logs_.emplace_back("reorder", temp, budget, parts_, block_bytes);
   }
 
   void add(std::size_t lane, std::span<const Triangle> triangles) {

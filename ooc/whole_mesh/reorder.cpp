@@ -43,6 +43,7 @@ class Reorder {
         options_(options),
         vertex_count_(mesh.vertex_count()),
         slices_(vertex_count_, options.allowance_bytes / 4 / sizeof(Rank)),
+        block_bytes_(PartitionLogs<Rank>::block_bytes_within(options.allowance_bytes / 8, 2 * slices_.count())),
         has_two_threads_(options.threads > 1 && slices_bytes() <= options.allowance_bytes / 4),
         ranks_(temp.create_unnamed("ranks")),
         result_(std::make_unique<ReorderedMesh>(mesh, temp, budget, options.allowance_bytes / 4)) {}
@@ -164,7 +165,7 @@ class Reorder {
     add_keys(by_key);
     by_key.finish(0, [this] { poll_vertices(); });
     tell_vertices(kKeyed);
-    PartitionLogs<PlacedRank> by_slice("reorder", temp_, budget_, slices_.count());
+    PartitionLogs<PlacedRank> by_slice("reorder", temp_, budget_, slices_.count(), block_bytes_);
     std::uint64_t rank = 0;
     std::vector<VertexId> ids;
     std::vector<std::uint64_t> originals;
@@ -255,7 +256,7 @@ class Reorder {
 
   // Reorders a column from the order of ids to that of ranks.
   void place_column(unsigned column) {
-    PartitionLogs<PlacedNumber> by_slice("reorder", temp_, budget_, slices_.count());
+    PartitionLogs<PlacedNumber> by_slice("reorder", temp_, budget_, slices_.count(), block_bytes_);
     std::vector<Rank> ranks;
     for_each_range(std::array{column}, [&](std::uint64_t first, std::size_t count, std::span<const double> values) {
       ranks.resize(count);
@@ -278,7 +279,8 @@ class Reorder {
   // Divides the corners of all triangles by slice. Needs no ranks.
   void read_places(double from, double to) {
     for (int lane = 0; lane < (has_two_threads_ ? 2 : 1); ++lane)
-      lanes_.push_back({{"reorder", temp_, budget_, slices_.count()}, {"reorder", temp_, budget_, 1}});
+      lanes_.push_back(
+          {{"reorder", temp_, budget_, slices_.count(), block_bytes_}, {"reorder", temp_, budget_, 1, block_bytes_}});
     std::vector<VertexId> corners;
     mesh_.rewind();
     for (std::size_t batch = 0; mesh_.read(corners, kItemsAtOnce); ++batch) {
@@ -341,6 +343,7 @@ class Reorder {
           for (const Triangle& triangle : some)
             for (const Rank corner : triangle.corners) corners.emplace_back(corner);
           result_->append_triangles(corners);
+          if (options_.use) options_.use(corners);
         },
         [this] { poll(); });
   }
@@ -351,7 +354,7 @@ class Reorder {
   }
   // What both threads hold at most beside what is sorted: three partitions, and a slice of numbers and one of ranks.
   std::uint64_t slices_bytes() const {
-    return 3 * slices_.count() * PartitionLogs<Rank>::kBlockBytes + slices_.entries() * (8 + sizeof(Rank));
+    return 3 * slices_.count() * block_bytes_ + slices_.entries() * (8 + sizeof(Rank));
   }
   Rank place_of(std::uint64_t id) const { return static_cast<Rank>(slices_.place_of(id)); }
 
@@ -363,6 +366,7 @@ class Reorder {
   std::atomic<bool> stops_ = false;
   std::uint64_t vertex_count_, triangle_count_ = 0;
   VertexSlices slices_;
+  std::size_t block_bytes_;  // of partitions by slice
   bool has_two_threads_;
   std::vector<Lane> lanes_;
   std::atomic<std::size_t> next_lane_ = 0;

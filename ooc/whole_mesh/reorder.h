@@ -45,6 +45,8 @@ struct ReorderOptions {
   bool in_slabs = false;
   // The part that is done, from 0 to 1. Called often, by one thread at a time. It may throw to stop.
   std::function<void(double)> progress = {};
+  // Called with the corners of some triangles at a time, in their new order, when all else has its memory.
+  std::function<void(std::span<const VertexId>)> use = {};
 };
 
 // Reads the triangles of `mesh` once, and its vertices in order twice; once more for each column with values that are

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <random>
+#include <span>
 
 #include "libreeb/base/error.h"
 #include "tests/ooc/chunks/model_mesh.h"
@@ -183,6 +185,35 @@ TEST(LastUse, SeesEarlyThatTrianglesAreScattered) {
   ModelMesh loose{std::vector<std::vector<double>>(3, std::vector<double>(90'000)), {}};
   for (std::uint64_t v = 0; v < loose.vertex_count(); ++v) loose.corners.emplace_back(v);
   EXPECT_EQ(read_until_too_many(loose), 1);
+}
+
+// The scan of triangles that come in batches of any size is that of the mesh.
+TEST(LastUse, TrianglesCanComeInBatches) {
+  const Scratch scratch;
+  const io::TempDir temp(scratch.path());
+  MemoryBudget budget;
+  std::mt19937_64 random(5);
+  for (const std::uint64_t triangles : {0u, 1u, 4000u}) {
+    const ModelMesh mesh = random_mesh(300, triangles, triangles);
+    ModelIndexedMesh indexed(mesh);
+    const LastUseOptions options{.block_triangles = 7, .most_blocks = 64};
+    auto whole = scan_last_use(indexed, temp, budget, options);
+    LastUseScan scan(mesh.vertex_count(), 0, temp, budget, options);
+    for (std::span<const VertexId> left = mesh.corners; !left.empty();) {
+      const auto some = left.first(std::min<std::size_t>(left.size(), 3 * (random() % 40)));
+      scan.look_at(some);
+      scan.use(some, 0);
+      left = left.subspan(some.size());
+    }
+    LastUse found = scan.finish();
+    EXPECT_EQ(found.summary(), whole->summary());
+    for (std::uint64_t v = 0; v < mesh.vertex_count(); ++v) {
+      std::array<std::uint32_t, 1> entry, expected;
+      found.read(VertexId(v), entry);
+      whole->read(VertexId(v), expected);
+      ASSERT_EQ(entry, expected) << v;
+    }
+  }
 }
 
 TEST(LastUse, EachFailingWriteIsReported) {

@@ -147,6 +147,24 @@ TEST(PagedTable, PagesOfTheUsualValueAreNotWritten) {
   for (std::uint64_t i = 0; i < kEntries; ++i) ASSERT_EQ(table.get(i), 7u);
 }
 
+// Pages that follow each other are written in one call. None of them is written again unless it changes again.
+TEST(PagedTable, PagesInARowAreWrittenOnce) {
+  const Scratch scratch;
+  const io::TempDir temp(scratch.path());
+  MemoryBudget budget(1 << 20);
+  PagedTable<std::uint32_t> table("table", temp, budget, 0, 0);
+  constexpr std::uint64_t kPerPage = PageCache::kPageBytes / sizeof(std::uint32_t), kPages = 1000;
+  for (std::uint64_t i = 0; i < kPages * kPerPage; ++i) table.set(i, static_cast<std::uint32_t>(3 * i + 1));
+  EXPECT_LE(table.pages().spilled_bytes(), kPages * PageCache::kPageBytes);
+  EXPECT_GE(table.pages().spilled_bytes(), (kPages - PageCache::kRequiredFrames) * PageCache::kPageBytes);
+  for (std::uint64_t page = 0; page < kPages; page += 3) table.set(page * kPerPage + page % kPerPage, 7);
+  for (std::uint64_t i = 0; i < kPages * kPerPage; ++i) {
+    const std::uint64_t page = i / kPerPage;
+    const bool changed = page % 3 == 0 && i % kPerPage == page % kPerPage;
+    ASSERT_EQ(table.get(i), changed ? 7 : static_cast<std::uint32_t>(3 * i + 1)) << i;
+  }
+}
+
 TEST(PagedTable, ReadingWhatWasNeverSetWritesNothing) {
   const Scratch scratch;
   const FaultAtCall writes(io::FileCall::kWrite);

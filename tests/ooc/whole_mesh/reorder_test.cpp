@@ -69,9 +69,14 @@ void compare(const ModelMesh& model, std::uint64_t allowance, std::uint64_t limi
     for (const unsigned threads : {1u, 2u}) {
       SCOPED_TRACE(threads);
       ModelIndexedMesh indexed(model);
+      std::vector<VertexId> used;
       const auto mesh =
-          reorder(indexed, temp, budget, {.allowance_bytes = allowance, .threads = threads, .in_slabs = in_slabs});
+          reorder(indexed, temp, budget,
+                  {.allowance_bytes = allowance, .threads = threads, .in_slabs = in_slabs, .use = [&](auto corners) {
+                     used.insert(used.end(), corners.begin(), corners.end());
+                   }});
       expect_same(model, *mesh);
+      EXPECT_EQ(used, all_corners(*mesh, 1000));
       if (threads == 1) of_one_thread = corners_of(*mesh);
       EXPECT_EQ(corners_of(*mesh), of_one_thread);
     }
