@@ -384,6 +384,9 @@ def targets(bench):
             bench.checked(f"targets/tiles/{order}/{memory}/no-reorder", tiled, *options, "--no-reorder",
                           genus=bench.genus(tiled), runs=1, limit=60, may_fail=True)
     beyond_memory(bench, "48M", bench.scan("48000000"), "40M")
+    if bench.in_core:
+        size = bench.sizes[-1]
+        bench.paired(f"targets/{size}/temporary-files", bench.scan(size), [*GRAPH, "--temp-dir", bench.in_core], GRAPH)
     if bench.mode != "huge":
         return
     beyond_memory(bench, "372M", bench.scan("372M"), "128M")

@@ -186,7 +186,8 @@ class Goals(unittest.TestCase):
                   "targets/12M/z/threads-2": self.cell(0.5, triangles=12000000, peak_bytes=33e6),
                   "targets/12M/random-order-64M": self.cell(7.0), "targets/12M/coherent-64M": self.cell(2.0),
                   "sizes/7.2M/hierarchy": self.cell(1.0, triangles=10000000),
-                  "sizes/56M/hierarchy": self.cell(12.0, triangles=100000000)}
+                  "sizes/56M/hierarchy": self.cell(12.0, triangles=100000000),
+                  "targets/56M/temporary-files": self.cell(1.0, wall_ratio=1.06)}
         rows = self.rows(stored)
         self.assertEqual(rows["12M triangles, z, graph only, `--buckets 0`, two threads"][2:4],
                          ["24.0 M/s, 33 MB", "no"])  # the memory
@@ -196,6 +197,7 @@ class Goals(unittest.TestCase):
             rows["12M triangles in random order, `--memory 64M`, with hierarchy, against patches"][2:4],
             ["3.5 times", "yes"])
         self.assertEqual(rows["growth from 7.2M triangles to the largest mesh: ns a triangle"][2:4], ["+20 %", "no"])
+        self.assertEqual(rows["temporary files on disk against in memory, z, largest mesh"][2:4], ["+6.0 %", "no"])
         self.assertEqual(rows["the same with a random function"][2:4], ["–", "not measured"])
 
     def test_memory_and_time_of_a_hierarchy_beyond_memory(self):

@@ -56,22 +56,26 @@ bool should_sort(std::uint64_t front, std::uint64_t vertices, const MemoryBudget
   return is_slow || front > most_live_bytes(budget) / kVertexBytes;
 }
 
-std::optional<LastUse> find_last_uses(IndexedMesh& mesh, Workspace& space, const CensusOptions& options,
-                                      bool may_give_up) {
+LastUseOptions use_options(const IndexedMesh& mesh, const Workspace& space, const CensusOptions& options) {
   LastUseOptions uses;
   uses.allowance_bytes = 2 * space.share();
   // Blocks of one triangle give the exact front; for large meshes, blocks are doubled. Each time, the whole table is
   // read and written, so blocks begin at a size that they will reach: a mesh has more triangles than vertices.
   uses.most_blocks = 1u << 16;
   uses.block_triangles = std::max<std::uint64_t>(1, std::bit_floor(mesh.vertex_count() / uses.most_blocks));
-  uses.give_up_when_incoherent = may_give_up;
   uses.threads = options.background ? 2 : 1;
+  return uses;
+}
+
+// Nothing if the mesh is incoherent.
+std::optional<LastUse> find_last_uses(IndexedMesh& mesh, Workspace& space, const CensusOptions& options) {
+  LastUseOptions uses = use_options(mesh, space, options);
+  uses.give_up_when_incoherent = true;
   uses.progress = [&](std::uint64_t bytes) { tell(options, {Phase::kFront, bytes, mesh.bytes_total(), 0}); };
   return scan_last_use(mesh, space.temp, space.budget, uses);
 }
 
-std::unique_ptr<IndexedMesh> sorted(IndexedMesh& mesh, unsigned dimension, Workspace& space,
-                                    const CensusOptions& options) {
+SortedMesh sorted(IndexedMesh& mesh, unsigned dimension, Workspace& space, const CensusOptions& options) {
   constexpr std::uint64_t kMostBytes = 64u << 20, kSteps = 10000;
   ReorderOptions reordering;
   reordering.allowance_bytes = std::min(space.budget.free_bytes() / 2, kMostBytes);
@@ -80,7 +84,7 @@ std::unique_ptr<IndexedMesh> sorted(IndexedMesh& mesh, unsigned dimension, Works
   reordering.progress = [&](double done) {
     tell(options, {Phase::kSort, static_cast<std::uint64_t>(done * kSteps), kSteps, 0});
   };
-  return reorder(mesh, space.temp, space.budget, reordering);
+  return reorder_with_last_uses(mesh, space.temp, space.budget, reordering, use_options(mesh, space, options));
 }
 
 ChunkSize chunk_size(const MemoryBudget& budget, const CensusOptions& options) {
@@ -160,7 +164,7 @@ std::optional<MeshCensus> count_chunks(const CountedMesh& counted, LastUse& uses
 
 MeshCensus count_indexed(const CountedMesh& counted, Workspace& space, const CensusOptions& options) {
   IndexedMesh& mesh = counted.mesh;
-  std::optional<LastUse> uses = find_last_uses(mesh, space, options, true);
+  std::optional<LastUse> uses = find_last_uses(mesh, space, options);
   std::optional<std::uint64_t> front;
   std::optional<MeshCensus> census;
   if (uses) {
@@ -171,10 +175,9 @@ MeshCensus count_indexed(const CountedMesh& counted, Workspace& space, const Cen
   SimplexCounts simplices = mesh.simplex_counts();
   if (!census) {
     uses.reset();
-    const auto other = sorted(mesh, counted.dimension, space, options);
+    auto [other, uses_of_other] = sorted(mesh, counted.dimension, space, options);
     simplices = mesh.simplex_counts();
-    uses = find_last_uses(*other, space, options, false);
-    census = count_chunks({*other, counted.dimension, counted.has_cells}, *uses, space, options, false);
+    census = count_chunks({*other, counted.dimension, counted.has_cells}, uses_of_other, space, options, false);
   }
   census->simplices = simplices;
   census->live_front = front;

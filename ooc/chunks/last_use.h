@@ -127,8 +127,8 @@ class LastUseScan {
 
   // Takes what does not depend on earlier triangles.
   void look_at(std::span<const VertexId> corners);
-  // `bytes_read`, of the mesh up to here, is for the progress. REQUIRES: it has not given up.
-  void use(std::span<const VertexId> corners, std::uint64_t bytes_read);
+  // `bytes_read`, of the mesh up to here, is for the progress.
+  void use(std::span<const VertexId> corners, std::uint64_t bytes_read = 0);
   bool gave_up() const { return gave_up_; }
   LastUse finish();
 

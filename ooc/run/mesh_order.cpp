@@ -219,33 +219,23 @@ class Ordering {
     origin_ = run_.plan.fits(front) ? ChunkOrigin::kSorted : ChunkOrigin::kSortedInSlabs;
   }
 
-  // The last uses of the sorted triangles are found while these are stored.
   void sort_on_disk() {
     constexpr std::uint64_t kSortBytesLimit = 64u << 20;
     const Stopwatch watch;
-    std::optional<LastUseScan> scan;
-    const auto start_scan = [&] {
-      scan.emplace(vertices_, 0, run_.temp, run_.budget, scan_options(/*may_give_up=*/false));
-    };
-    const auto use = [&](std::span<const VertexId> corners) {
-      if (!scan) start_scan();
-      scan->look_at(corners);
-      scan->use(corners, 0);
-    };
-    auto sorted = reorder(*mesh_, run_.temp, run_.budget,
-                          {.allowance_bytes = std::min<std::uint64_t>(run_.budget.free_bytes() / 2, kSortBytesLimit),
-                           .coordinates = std::min(input_.dimension, 3u),
-                           .threads = run_.threads,
-                           .in_slabs = origin_ == ChunkOrigin::kSortedInSlabs,
-                           .progress = [this](double done) { tell_sorting(done); },
-                           .use = use});
+    auto [sorted, uses] = reorder_with_last_uses(
+        *mesh_, run_.temp, run_.budget,
+        {.allowance_bytes = std::min<std::uint64_t>(run_.budget.free_bytes() / 2, kSortBytesLimit),
+         .coordinates = std::min(input_.dimension, 3u),
+         .threads = run_.threads,
+         .in_slabs = origin_ == ChunkOrigin::kSortedInSlabs,
+         .progress = [this](double done) { tell_sorting(done); }},
+        scan_options(/*may_give_up=*/false));
+    check_blocks(uses);
     notes_.push_back("neighbouring triangles lie far apart in this file, so they were sorted on disk first");
     spilled_bytes_ += sorted->spilled_bytes();
     for (const std::string& warning : mesh_->warnings()) notes_.push_back(warning);
     mesh_ = std::move(sorted);
-    if (!scan) start_scan();  // there are no triangles
-    uses_ = scan->finish();
-    check_blocks(*uses_);
+    uses_ = std::move(uses);
     spilled_bytes_ += uses_->spilled_bytes();
     seconds_.reorder += watch.seconds();
   }

@@ -8,6 +8,8 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "ooc/sorting/external_sort.h"
@@ -32,15 +34,20 @@ struct StopAtEnd {
   ~StopAtEnd() { stops = true; }
 };
 
+// Called with the corners of some triangles at a time, in their new order, when all else has its memory.
+using UseTriangles = std::function<void(std::span<const VertexId>)>;
+
 // Ranks have 32 bits where that suffices: what is written to disk is most of the time.
 template <class Rank>
 class Reorder {
  public:
-  Reorder(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget, const ReorderOptions& options)
+  Reorder(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget, const ReorderOptions& options,
+          const UseTriangles& use)
       : mesh_(mesh),
         temp_(temp),
         budget_(budget),
         options_(options),
+        use_(use),
         vertex_count_(mesh.vertex_count()),
         slices_(vertex_count_, options.allowance_bytes / 4 / sizeof(Rank)),
         block_bytes_(PartitionLogs<Rank>::block_bytes_within(options.allowance_bytes / 8, 2 * slices_.count())),
@@ -343,7 +350,7 @@ class Reorder {
           for (const Triangle& triangle : some)
             for (const Rank corner : triangle.corners) corners.emplace_back(corner);
           result_->append_triangles(corners);
-          if (options_.use) options_.use(corners);
+          if (use_) use_(corners);
         },
         [this] { poll(); });
   }
@@ -362,6 +369,7 @@ class Reorder {
   const io::TempDir& temp_;
   MemoryBudget& budget_;
   const ReorderOptions& options_;
+  const UseTriangles& use_;
   mutable double done_ = 0;  // as told last
   std::atomic<bool> stops_ = false;
   std::uint64_t vertex_count_, triangle_count_ = 0;
@@ -375,13 +383,32 @@ class Reorder {
   std::unique_ptr<ReorderedMesh> result_;
 };
 
+std::unique_ptr<ReorderedMesh> reorder_and_use(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget,
+                                               const ReorderOptions& options, const UseTriangles& use) {
+  if (mesh.vertex_count() <= std::numeric_limits<std::uint32_t>::max())
+    return Reorder<std::uint32_t>(mesh, temp, budget, options, use).run();
+  return Reorder<std::uint64_t>(mesh, temp, budget, options, use).run();
+}
+
 }  // namespace
 
 std::unique_ptr<ReorderedMesh> reorder(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget,
                                        const ReorderOptions& options) {
-  if (mesh.vertex_count() <= std::numeric_limits<std::uint32_t>::max())
-    return Reorder<std::uint32_t>(mesh, temp, budget, options).run();
-  return Reorder<std::uint64_t>(mesh, temp, budget, options).run();
+  return reorder_and_use(mesh, temp, budget, options, {});
+}
+
+SortedMesh reorder_with_last_uses(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget,
+                                  const ReorderOptions& options, const LastUseOptions& uses) {
+  std::optional<LastUseScan> scan;  // begins with the first triangles, after the sort has reserved its memory
+  const auto begin = [&] { scan.emplace(mesh.vertex_count(), 0, temp, budget, uses); };
+  const auto use = [&](std::span<const VertexId> corners) {
+    if (!scan) begin();
+    scan->look_at(corners);
+    scan->use(corners);
+  };
+  std::unique_ptr<ReorderedMesh> sorted = reorder_and_use(mesh, temp, budget, options, use);
+  if (!scan) begin();
+  return {std::move(sorted), scan->finish()};
 }
 
 }  // namespace reeb::ooc

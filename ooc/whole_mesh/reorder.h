@@ -9,6 +9,7 @@
 #include "io/file/temp_dir.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/port/indexed_mesh.h"
+#include "ooc/chunks/last_use.h"
 #include "ooc/chunks/spooled_mesh.h"
 
 namespace reeb::ooc {
@@ -45,8 +46,6 @@ struct ReorderOptions {
   bool in_slabs = false;
   // The part that is done, from 0 to 1. Called often, by one thread at a time. It may throw to stop.
   std::function<void(double)> progress = {};
-  // Called with the corners of some triangles at a time, in their new order, when all else has its memory.
-  std::function<void(std::span<const VertexId>)> use = {};
 };
 
 // Reads the triangles of `mesh` once, and its vertices in order twice; once more for each column with values that are
@@ -56,5 +55,15 @@ struct ReorderOptions {
 // MEMORY: the allowance; the result keeps a quarter of it. About 45 bytes of disk per triangle.   TIME: O(n log n).
 std::unique_ptr<ReorderedMesh> reorder(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget,
                                        const ReorderOptions& options = {});
+
+struct SortedMesh {
+  std::unique_ptr<ReorderedMesh> mesh;
+  LastUse uses;
+};
+
+// The same with the last uses of the vertices, which are found while the triangles are stored: that takes a fraction of
+// the time of a scan. `uses` must not allow it to give up; its progress is not called.
+SortedMesh reorder_with_last_uses(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget,
+                                  const ReorderOptions& options, const LastUseOptions& uses);
 
 }  // namespace reeb::ooc

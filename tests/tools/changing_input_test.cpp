@@ -188,6 +188,23 @@ class Sidecar : public ProgramTest {
     expect_success(reeb({"generate", "scan", "--triangles", "200k", "-o", "mesh.ply"}));
     expected_ = graph({});
   }
+  // A part reads its own triangles only. The digest of the mesh is of 16 samples of 64 KiB. Triangles of the first of
+  // three parts and the last one are exchanged between them; size and time stay.
+  void exchange_triangles_between_samples() {
+    const fs::path path = in_folder("mesh.ply");
+    const auto time = fs::last_write_time(path);
+    std::string bytes = file("mesh.ply");
+    constexpr std::size_t kFace = 13, kSample = 1 << 16, kSteps = 15;
+    const std::size_t faces = io::open_mesh(path)->indexed()->triangles_by_size().value();
+    const std::size_t begin = bytes.size() - faces * kFace, room = bytes.size() - kSample;
+    const auto face_after_sample = [&](std::size_t k) {
+      const std::size_t gap = room * k / kSteps + kSample + 1000;
+      return bytes.begin() + static_cast<std::ptrdiff_t>(begin + (gap - begin) / kFace * kFace);
+    };
+    std::swap_ranges(face_after_sample(7), face_after_sample(7) + 50 * kFace, face_after_sample(13));
+    write("mesh.ply", bytes);
+    fs::last_write_time(path, time);
+  }
   std::string graph(const std::vector<std::string>& options) {
     std::vector<std::string> words = {"compute", "mesh.ply", "--buckets", "0", "-o", "out.reeb", "--force"};
     words.insert(words.end(), options.begin(), options.end());
@@ -302,29 +319,32 @@ TEST_F(Sidecar, OfAMeshThatWasChangedIsIgnored) {
   EXPECT_EQ(outcome_.error.find("is ignored"), std::string::npos) << outcome_.error;
 }
 
-// A part reads its own triangles only. The digest of the mesh is of 16 samples of 64 KiB; triangles of the first part
-// and the last one are exchanged between them.
 TEST_F(Sidecar, OfOtherContentEndsAFragment) {
   expect_success(reeb({"compute", "mesh.ply", "-o", "first.reeb", "--sidecar", "--quiet"}));
-  const fs::path path = in_folder("mesh.ply");
-  const auto time = fs::last_write_time(path);
-  std::string bytes = file("mesh.ply");
-  constexpr std::size_t kFace = 13, kSample = 1 << 16, kSteps = 15;
-  const std::size_t faces = io::open_mesh(path)->indexed()->triangles_by_size().value();
-  const std::size_t begin = bytes.size() - faces * kFace, room = bytes.size() - kSample;
-  const auto face_after_sample = [&](std::size_t k) {
-    const std::size_t gap = room * k / kSteps + kSample + 1000;
-    return bytes.begin() + static_cast<std::ptrdiff_t>(begin + (gap - begin) / kFace * kFace);
-  };
-  std::swap_ranges(face_after_sample(7), face_after_sample(7) + 50 * kFace, face_after_sample(13));
-  write("mesh.ply", bytes);
-  fs::last_write_time(path, time);
+  exchange_triangles_between_samples();
   for (const std::string part : {"1", "2", "3"}) {
     const Outcome outcome = reeb({"fragment", "mesh.ply", "--part", part + "/3", "-o", part + ".fragment", "--quiet"});
     if (part == "2")
       expect_success(outcome);
     else
       expect_error(outcome, 1, "mesh.ply: the sidecar ");
+  }
+}
+
+TEST_F(Sidecar, NamesOfOtherContentEndAFragment) {
+  const auto fragment = [&](const std::string& part, const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"fragment", "mesh.ply", "--part", part + "/3", "--quiet"};
+    words.insert(words.end(), more.begin(), more.end());
+    return reeb(words);
+  };
+  for (const std::string part : {"1", "2", "3"}) expect_success(fragment(part, {"--scan", "-o", part + ".names"}));
+  exchange_triangles_between_samples();
+  for (const std::string part : {"1", "2", "3"}) {
+    const Outcome outcome = fragment(part, {"-o", part + ".fragment", "--shared", "1.names", "2.names", "3.names"});
+    if (part == "2")
+      expect_success(outcome);
+    else
+      expect_error(outcome, 1, "mesh.ply: the files of names are of other content than the mesh");
   }
 }
 

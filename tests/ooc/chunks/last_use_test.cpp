@@ -202,7 +202,7 @@ TEST(LastUse, TrianglesCanComeInBatches) {
     for (std::span<const VertexId> left = mesh.corners; !left.empty();) {
       const auto some = left.first(std::min<std::size_t>(left.size(), 3 * (random() % 40)));
       scan.look_at(some);
-      scan.use(some, 0);
+      scan.use(some);
       left = left.subspan(some.size());
     }
     LastUse found = scan.finish();

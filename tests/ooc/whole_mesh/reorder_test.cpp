@@ -69,14 +69,11 @@ void compare(const ModelMesh& model, std::uint64_t allowance, std::uint64_t limi
     for (const unsigned threads : {1u, 2u}) {
       SCOPED_TRACE(threads);
       ModelIndexedMesh indexed(model);
-      std::vector<VertexId> used;
-      const auto mesh =
-          reorder(indexed, temp, budget,
-                  {.allowance_bytes = allowance, .threads = threads, .in_slabs = in_slabs, .use = [&](auto corners) {
-                     used.insert(used.end(), corners.begin(), corners.end());
-                   }});
+      const LastUseOptions blocks{.block_triangles = 64};
+      const auto [mesh, uses] = reorder_with_last_uses(
+          indexed, temp, budget, {.allowance_bytes = allowance, .threads = threads, .in_slabs = in_slabs}, blocks);
       expect_same(model, *mesh);
-      EXPECT_EQ(used, all_corners(*mesh, 1000));
+      EXPECT_EQ(uses.summary(), scan_last_use(*mesh, temp, budget, blocks)->summary());
       if (threads == 1) of_one_thread = corners_of(*mesh);
       EXPECT_EQ(corners_of(*mesh), of_one_thread);
     }
