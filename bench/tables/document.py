@@ -145,6 +145,8 @@ def peer_table(figures, cells):
                      figures.text(vtk, "wall", seconds), figures.text(vtk, "peak_bytes", size),
                      MISSING if "equal" not in there else "yes" if there["equal"] else "no"])
     version = next((cell["version"] for cell in cells.values() if "version" in cell), "")
+    if not rows:
+        return version, "Not measured: VTK was not installed.\n"
     return version, table(["triangles", "reeb", "memory", "VTK, the graph alone", "VTK, whole process", "memory",
                            "the same arcs"], rows)
 
