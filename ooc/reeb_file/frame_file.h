@@ -25,6 +25,7 @@ class FrameFile {
   const FileHeader& header() const { return header_; }
   const std::string& path() const { return file_.path(); }
   std::uint64_t file_bytes() const { return file_.size(); }
+  std::vector<std::byte> bytes() const;
   // THROWS: Error{kBadInput} if the file has no such version.
   void require_version(std::uint32_t version) const;
 

@@ -77,6 +77,12 @@ class ProgramTest : public testing::Test {
     EXPECT_TRUE(outcome.error.ends_with("hint: " + hints[0] + "\n")) << "something follows the hint";
   }
 
+  // A note or a warning in one line. Where it is wrapped depends on the paths in it.
+  static std::string unwrapped(std::string text) {
+    for (std::size_t at; (at = text.find("\n    ")) != std::string::npos;) text.replace(at, 5, " ");
+    return text;
+  }
+
   // The rest of each line that begins with `begin`.
   static std::vector<std::string> lines_after(const std::string& begin, const std::string& text) {
     std::vector<std::string> rests;

@@ -126,7 +126,10 @@ std::vector<std::string> write_mesh(const RunInput& input, ooc::Segmentation& se
   }
   input.input().check_unchanged();
   writer->close();
-  return reader->warnings();
+  std::vector<std::string> notes = reader->warnings();
+  if (is_ply && std::ranges::find(info.property_names, "arc") != info.property_names.end())
+    notes.emplace_back("the mesh has a property \"arc\" already, which the labels replaced");
+  return notes;
 }
 
 void write_labels(ooc::Segmentation& segmentation, const SegmentOptions& options) {

@@ -34,6 +34,9 @@ ChosenLevel choose_level(const ooc::ReebFile& file, const LevelChoice& choice) {
   } else if (choice.nodes) {
     level.version = file.finest_with_nodes(*choice.nodes);
     if (level.version != 0) level.text = "finest level of at most " + count_of(*choice.nodes, "node");
+  } else if (choice.version) {
+    level.version = *choice.version;
+    if (level.version != 0) level.text = "level without the " + count_of(level.version, "smallest pair");
   }
   return level;
 }

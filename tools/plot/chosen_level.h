@@ -10,10 +10,11 @@
 
 namespace reeb::tools {
 
-// As --threshold and --nodes; both empty: the full graph.
+// As --threshold and --nodes, or the version itself; all empty: the full graph.
 struct LevelChoice {
   std::string threshold;
   std::optional<std::uint64_t> nodes;
+  std::optional<std::uint32_t> version = {};
 };
 
 struct LevelOptions {

@@ -64,7 +64,7 @@ void write_file(const std::string& path, const py::bytes& content, bool force) {
 py::dict header_of(const ooc::ReebFile& file) {
   const FileHeader& header = file.header();
   py::dict dict;
-  dict["function"] = header.function;
+  dict["function"] = text_of(header.function);
   dict["min"] = header.function_min;
   dict["max"] = header.function_max;
   dict["vertices"] = header.mesh_vertices;
@@ -81,8 +81,17 @@ py::dict header_of(const ooc::ReebFile& file) {
   dict["graph_only"] = header.flags.graph_only;
   dict["positions"] = header.flags.has_positions;
   dict["embedding"] = header.flags.has_embedding;
-  dict["damage"] = file.damage() == nullptr ? "" : file.damage()->what();
+  dict["damage"] = text_of(file.damage() == nullptr ? "" : file.damage()->what());
   return dict;
+}
+
+py::bytes bytes_of(const ooc::ReebFile& file) {
+  std::vector<std::byte> bytes;
+  {
+    const WithoutGil released;
+    bytes = file.bytes();
+  }
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 py::list levels_of(const ooc::ReebFile& file) {
@@ -212,6 +221,7 @@ void add_files(py::module_& module) {
       .def_static("from_bytes",
                   [](const py::bytes& content) { return std::const_pointer_cast<ooc::ReebFile>(open_bytes(content)); })
       .def("header", &header_of)
+      .def("bytes", &bytes_of)
       .def("levels", &levels_of)
       .def("version_at", &ooc::ReebFile::version_at)
       .def("finest_with_nodes", &ooc::ReebFile::finest_with_nodes)

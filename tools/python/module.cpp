@@ -15,17 +15,13 @@ namespace {
 
 // The exception classes are Python's own (reeb/errors.py), which chooses one.
 void translate(std::exception_ptr thrown) {
-  // Messages may quote any bytes of a file.
-  const auto text = [](const std::string& bytes) {
-    return py::reinterpret_steal<py::object>(
-        PyUnicode_DecodeUTF8(bytes.data(), static_cast<py::ssize_t>(bytes.size()), "backslashreplace"));
-  };
   const auto raise = [&](const Error& error) {
     const py::object path = py::reinterpret_steal<py::object>(
         PyUnicode_DecodeFSDefaultAndSize(error.file().data(), static_cast<py::ssize_t>(error.file().size())));
-    const py::object made = py::module_::import("reeb.errors")
-                                .attr("_make")(static_cast<int>(error.kind()), static_cast<int>(error.cause()), path,
-                                               text(error.position()), text(error.message()), text(error.hint()));
+    const py::object made =
+        py::module_::import("reeb.errors")
+            .attr("_make")(static_cast<int>(error.kind()), static_cast<int>(error.cause()), path,
+                           text_of(error.position()), text_of(error.message()), text_of(error.hint()));
     PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(made.ptr())), made.ptr());
   };
   try {
@@ -39,6 +35,12 @@ void translate(std::exception_ptr thrown) {
 }
 
 }  // namespace
+
+py::object text_of(const std::string& bytes) {
+  return py::reinterpret_steal<py::object>(
+      PyUnicode_DecodeUTF8(bytes.data(), static_cast<py::ssize_t>(bytes.size()), "backslashreplace"));
+}
+
 }  // namespace reeb::python
 
 PYBIND11_MODULE(_reeb, module) {

@@ -3,7 +3,12 @@
 
 #include <pybind11/pybind11.h>
 
+#include <string>
+
 namespace reeb::python {
+
+// As Python's text. A name may have any bytes, as those of a property do; what is not UTF-8 is written as \xFF.
+pybind11::object text_of(const std::string& bytes);
 
 // compute(), segment(), defects(), and the meshes in memory that they take.
 void add_runs(pybind11::module_& module);

@@ -21,14 +21,14 @@ namespace py = pybind11;
 
 namespace {
 
-// The level is named by the threshold that was asked for, or else by its number of nodes.
+// The level is named by the threshold that was asked for, if one was.
 std::string plot(const std::shared_ptr<ooc::ReebFile>& file, std::uint32_t version, const std::string& threshold,
                  const std::string& kind, const std::string& mesh, const std::optional<std::array<double, 3>>& view) {
   const WithoutGil released;
   const TempFolder folder("");
   tools::LevelChoice level;
   level.threshold = threshold;
-  if (threshold.empty() && version != 0) level.nodes = file->load_graph(version).node_count();
+  if (threshold.empty()) level.version = version;
   if (kind == "graph") return tools::draw_graph(*file, level, folder.path());
   if (kind == "diagram") return tools::draw_diagram(*file, level, folder.path());
   if (kind == "loops") return tools::draw_loops(std::span(file.get(), 1), level, folder.path());

@@ -157,7 +157,7 @@ ComputeOptions compute_options(const py::dict& given, WatchedRun& run) {
 
 py::dict to_dict(const ComputeResult& result) {
   py::dict dict;
-  dict["function"] = result.function;
+  dict["function"] = text_of(result.function);
   dict["min"] = result.range.min;
   dict["max"] = result.range.max;
   dict["vertices"] = result.vertices;
@@ -172,7 +172,9 @@ py::dict to_dict(const ComputeResult& result) {
   dict["kept_loops"] = result.kept_loops;
   dict["denoised_pairs"] = result.denoised_pairs;
   dict["seconds"] = result.seconds.wall;
-  dict["notes"] = result.notes;
+  py::list notes;
+  for (const std::string& note : result.notes) notes.append(text_of(note));
+  dict["notes"] = notes;
   return dict;
 }
 

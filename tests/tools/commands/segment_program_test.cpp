@@ -57,6 +57,11 @@ TEST_F(SegmentProgram, WritesTheSameLabelsInEveryFormat) {
     limited.insert(limited.end(), {"--memory", "16M", "--threads", "1"});
     EXPECT_EQ(labels("s.ply", "s.reeb", limited), expected);
   }
+  // The labels of the labelled mesh replace the earlier ones, and that is said.
+  const Outcome again = reeb({"segment", "o.ply", "s.reeb", "-o", "again.ply"});
+  expect_success(again);
+  EXPECT_NE(unwrapped(again.error).find("which the labels replaced"), std::string::npos) << again.error;
+  EXPECT_EQ(property("again.ply", "arc"), labels("s.ply", "s.reeb", {}));
   expect_success(reeb({"function", "s.ply", "-f", "z", "-o", "z.f64", "--quiet"}));
   expect_success(reeb({"function", "o.vtp", "-f", "property:Value", "-o", "v.f64", "--quiet"}));
   EXPECT_EQ(file("v.f64"), file("z.f64"));

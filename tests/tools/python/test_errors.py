@@ -298,13 +298,6 @@ def test_no_file_is_named_that_is_gone_or_never_was(tmp_path):
     with pytest.raises(reeb.Error, match="the graph only") as caught:
         graph.plot(kind="diagram")
     assert caught.value.path is None and "graph.reeb" not in str(caught.value)
-    graph = reeb.compute(VERTICES, FACES, output=tmp_path / "g.reeb")
-    (tmp_path / "g.reeb").unlink()
-    for action in (lambda: graph.save(tmp_path / "h.reeb"), lambda: pickle.dumps(graph)):
-        with pytest.raises(FileNotFoundError) as caught:
-            action()
-        assert isinstance(caught.value, reeb.Error) and caught.value.path == str(tmp_path / "g.reeb")
-        assert caught.value.hint
     missing = error_of(VERTICES, FACES, temp_dir=tmp_path / "no")
     assert isinstance(missing, OSError) and (missing.kind, missing.path) == ("resource", str(tmp_path / "no"))
 
@@ -552,3 +545,19 @@ def test_several_threads_compute_at_once():
     for thread in threads:
         thread.join()
     assert results == [expected] * 4
+
+
+@pytest.mark.parametrize("bad", ["\udcff", "\ud800"])
+def test_texts_that_are_not_utf8_are_errors_like_others(bad):
+    vertices, faces = np.array([[0, 0, 0], [1, 0, 1], [0, 1, 2.0]]), [[0, 1, 2]]
+    for options in ({"memory": bad}, {"denoise": bad}, {"f": "property:" + bad}):
+        with pytest.raises(reeb.Error):
+            reeb.compute(vertices, faces, **options)
+    with pytest.raises(reeb.Error):
+        reeb.compute(vertices, faces).level(bad)
+
+
+@pytest.mark.parametrize("bad", [[[1], [1, 2]], "x", None, [[1]], 1.5])
+def test_what_is_finalized_is_an_array_of_indices(bad):
+    with pytest.raises(reeb.Error, match="ids"):
+        reeb.Online().finalize(bad)

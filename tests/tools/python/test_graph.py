@@ -1,6 +1,8 @@
 """What a graph has: levels, skeletons, other forms; streams, segmentation, defects."""
 
+import copy
 import os
+import pickle
 import subprocess
 import sys
 import threading
@@ -351,3 +353,54 @@ def test_the_tutorial_prints_what_it_says(tmp_path):
     assert (tmp_path / "TUTORIAL.md").read_text() == (docs / "TUTORIAL.md").read_text()
     # Pictures depend on the version of Graphviz.
     assert {path.name for path in tmp_path.glob("*.svg")} == {path.name for path in docs.glob("tutorial-*.svg")}
+
+
+def test_a_graph_stays_what_it_is_when_its_file_is_replaced(tmp_path):
+    vertices, faces = np.array([[0, 0, 0], [1, 0, 1], [0, 1, 2], [1, 1, 3.0]]), [[0, 1, 2], [1, 2, 3]]
+    path = tmp_path / "graph.reeb"
+    graph = reeb.compute(vertices, faces, output=path)
+    other = reeb.compute(vertices, faces, [3, 0, 2, -1], output=path, force=True)
+    assert graph != other
+    for same in (pickle.loads(pickle.dumps(graph)), copy.copy(graph), copy.deepcopy(graph)):
+        assert same == graph
+    graph.save(tmp_path / "saved.reeb")
+    assert reeb.open(tmp_path / "saved.reeb") == graph
+    path.unlink()
+    assert pickle.loads(pickle.dumps(other)) == other
+
+
+def test_a_picture_is_of_the_level_and_not_of_one_with_as_many_nodes():
+    # Two loops between the same nodes: their levels differ by arcs only.
+    points = np.zeros((5, 3))
+    points[:, 2] = [0, 10, 4, 5, 6]
+    graph = reeb.compute(points, [[0, 2], [2, 1], [0, 3], [3, 1], [0, 4], [4, 1]])
+    level = graph.level(memory=int(graph.levels["memory"].min()))
+    assert (len(graph.nodes), len(level.nodes)) == (2, 2)
+    assert "full graph, 2 nodes, 3 arcs, 1 component, 2 loops" in graph.plot().svg
+    assert "level without the 2 smallest pairs, 2 nodes, 1 arc, 1 component, 0 loops" in level.plot().svg
+
+
+def test_values_are_refused_where_the_graph_is_of_something_else():
+    vertices, faces = np.array([[0, 0, 0], [1, 0, 1], [0, 1, 2.0]]), [[0, 1, 2]]
+    with pytest.raises(reeb.Error, match="the graph is of z, not of values"):
+        reeb.segment(reeb.compute(vertices, faces), vertices, faces, [9, 9, 9])
+    assert list(reeb.segment(reeb.compute(vertices, faces, [2, 0, 1]), vertices, faces, [2, 0, 1]).labels) == [-2, -1, 0]
+
+
+def test_names_that_are_not_utf8(tmp_path):
+    mesh = tmp_path / "mesh.ply"
+    head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    text = head + "property float h\udcf6he\n" + faces + "0 0 0 1\n1 0 0 2\n0 1 0 3\n3 0 1 2\n"
+    mesh.write_bytes(os.fsencode(text))
+    graph = reeb.compute(mesh, f="property:h\udcf6he", output=tmp_path / "graph.reeb")
+    assert graph.function == reeb.open(tmp_path / "graph.reeb").function == "property:h\\xf6he"
+    assert list(reeb.segment(graph, mesh).labels) == [-1, 0, -2]
+
+    folder = tmp_path / "temporary\udcff"
+    folder.mkdir()
+    vertices, faces = np.array([[0, 0, 0], [1, 0, 1], [0, 1, 2.0]]), [[0, 1, 2]]
+    graph = reeb.compute(vertices, faces, temp_dir=folder)
+    assert list(reeb.segment(graph, vertices, faces, temp_dir=folder).labels) == [-1, 0, -2]
+    assert len(reeb.defects(vertices, faces, temp_dir=folder).loops) == 0
+    assert not any(folder.iterdir())

@@ -110,3 +110,17 @@ def test_places_of_networks(graph):
     assert [again.nodes[name].tolist() for name in "xyz"] == [level.nodes[name].tolist() for name in "xyz"]
     with pytest.raises(reeb.Error, match="parallel"):
         reeb.compute(graph.to_networkx(), f="property:value")  # a loop of two arcs
+
+
+def test_attributes_of_networks_are_exact_or_not_there():
+    networkx = pytest.importorskip("networkx")
+    network = networkx.cycle_graph(6)
+    networkx.set_node_attributes(network, {i: 2**53 + i for i in network}, "large")
+    networkx.set_node_attributes(network, {i: 10**400 for i in network}, "huge")
+    networkx.set_node_attributes(network, {i: np.complex128(1j) for i in network}, "complex")
+    notes = reeb.compute(network, f="property:large").result["notes"]
+    assert notes == ["3 values beyond 2^53 were rounded to the nearest double"]
+    assert len(reeb.compute(network, f="index").nodes) == 2
+    for name in ("huge", "complex"):
+        with pytest.raises(reeb.Error, match=f'there are no values of the name "{name}"'):
+            reeb.compute(network, f="property:" + name)

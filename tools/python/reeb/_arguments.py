@@ -26,6 +26,14 @@ def path_bytes(path):
     return name
 
 
+def text_bytes(name, text):
+    """A text as the compiled part takes it, also one with bytes that are not UTF-8, as os.fsdecode gives."""
+    try:
+        return os.fsencode(text)
+    except UnicodeEncodeError:
+        raise Error(f"{name}={text!r} cannot be encoded", "a text of characters", kind="usage") from None
+
+
 def check_output(path):
     if not is_path(path) or os.fspath(path) == "-":
         raise Error(f"output={path!r} is not a path", "the name of a file to write", kind="usage")
@@ -46,9 +54,10 @@ def described(thing):
 
 
 def is_number(thing):
-    """What float() takes, but for texts."""
+    """What float() takes, but for texts and complex numbers."""
     try:
-        return isinstance(thing, (int, float, np.number)) and float(thing) is not None
+        is_real = isinstance(thing, (int, float, np.number)) and not isinstance(thing, np.complexfloating)
+        return is_real and float(thing) is not None
     except (TypeError, OverflowError):
         return False
 

@@ -251,7 +251,8 @@ def _point_data(thing):
 
 def _is_column(array):
     array = np.asarray(array)
-    return array.ndim == 1 and array.dtype.kind in "iufb"
+    is_flat = array.ndim == 1 or (array.ndim == 2 and array.shape[1] == 1)
+    return is_flat and array.dtype.kind in "iufb"
 
 
 def parts_of_object(thing):

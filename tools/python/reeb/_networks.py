@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ._arguments import is_number
 from .errors import Error
 
 
@@ -25,19 +26,22 @@ def parts_of_network(network):
 def _positions(network):
     columns = values_of_network(network, ("x", "y", "z"))
     if len(columns) == 3:
-        return np.stack([columns["x"], columns["y"], columns["z"]], axis=1)
+        return np.stack([columns[axis].astype(float) for axis in "xyz"], axis=1)
     places = [place for _, place in network.nodes(data="pos")]
     return None if not places or any(place is None for place in places) else places
 
 
 def values_of_network(network, names=None):
-    """The attributes that each node has as a number, as arrays by name."""
+    """The attributes that each node has as a number, as arrays by name. Integers stay integers, since a double does not
+    hold all of them."""
     rows = [attributes for _, attributes in network.nodes(data=True)]
     if names is None:
         names = list(rows[0]) if rows else []
     columns = {}
     for name in names:
-        values = np.array([row.get(name) for row in rows], object)
-        if len(rows) and all(isinstance(value, (int, float, np.number)) for value in values):
-            columns[str(name)] = values.astype(float)
+        given = [row.get(name) for row in rows]
+        if not given or not all(is_number(value) for value in given):
+            continue
+        values = np.array(given)
+        columns[str(name)] = values if values.dtype.kind in "iuf" else values.astype(float)
     return columns

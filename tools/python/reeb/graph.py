@@ -4,15 +4,15 @@ import contextlib
 import io
 import math
 import os
-import tempfile
 import warnings
 from typing import NamedTuple
 
 import numpy as np
 
 from . import _reeb
-from ._arguments import check_output, is_number, is_path, path_bytes, vector, warn_of_suffix, whole
-from .errors import Error, MissingFile, MissingPackage, SystemFailure, without_path
+from ._arguments import check_output, is_number, is_path, path_bytes, text_bytes, vector, warn_of_suffix, whole
+from ._folders import temporary_folder
+from .errors import Error, MissingPackage, without_path
 
 _TYPES = np.array(["Ext0", "Ext1", "Ord0", "Rel1"])
 _PAIR_COLUMNS = [
@@ -33,7 +33,6 @@ _PAIR_COLUMNS = [
 
 
 _PICTURES = ("graph", "skeleton", "diagram", "loops")
-_AGAIN = "put it back, or compute the graph again"
 
 
 class Skeleton(NamedTuple):
@@ -73,7 +72,7 @@ class _Store:
         if self.path is not None:
             yield self.file()
             return
-        with tempfile.TemporaryDirectory(prefix="reeb-") as folder:
+        with temporary_folder() as folder:
             path = os.path.join(folder, "graph.reeb")
             with io.open(path, "wb") as file:
                 file.write(self.content)
@@ -85,16 +84,8 @@ class _Store:
                 raise without_path(error) from None
 
     def bytes(self):
-        if self.content is not None:
-            return self.content
-        try:
-            with io.open(self.path, "rb") as file:
-                return file.read()
-        except FileNotFoundError as error:
-            raise MissingFile("the file of the graph is no longer there", _AGAIN, path=self.path) from error
-        except OSError as error:
-            what = f"the file of the graph cannot be read: {error.strerror}"
-            raise SystemFailure(what, _AGAIN, path=self.path, kind="resource") from error
+        """As the file was when it was opened: the name may be that of another file by now."""
+        return self.content if self.content is not None else self.file().bytes()
 
 
 class Graph:
@@ -465,14 +456,14 @@ class Graph:
             return file.finest_with_nodes(whole("nodes", nodes, 0))
         if memory is not None:
             return file.finest_with_memory(
-                _reeb.parse_size(memory) if isinstance(memory, str) else whole("memory", memory, 0)
+                _reeb.parse_size(text_bytes("memory", memory)) if isinstance(memory, str) else whole("memory", memory, 0)
             )
         if not isinstance(threshold, str) and (not is_number(threshold) or not threshold >= 0):
             raise Error(f"threshold={threshold!r} is not a threshold", 'as 0.01, or "0.1%"', kind="usage")
         least, greatest = self.range
         value = threshold
         if isinstance(threshold, str):
-            value = _reeb.parse_threshold("threshold", threshold, least, greatest)
+            value = _reeb.parse_threshold("threshold", text_bytes("threshold", threshold), least, greatest)
         value = float(value)
         text = _threshold_text(threshold)
         if math.isfinite(value) and (note := _reeb.large_threshold(text, least, greatest, self.function)):

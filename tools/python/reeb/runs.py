@@ -3,14 +3,14 @@
 import json
 import os
 import sys
-import tempfile
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 import numpy as np
 
 from . import _arrays, _reeb
-from ._arguments import described, is_number, is_path, path_bytes, vector, warn_of_suffix, whole
+from ._arguments import described, is_number, is_path, path_bytes, text_bytes, vector, warn_of_suffix, whole
+from ._folders import temporary_folder
 from .errors import Error, SystemFailure, without_path
 from .graph import Graph, _open_result
 
@@ -116,7 +116,7 @@ def compute(
     else:
         _refuse_of_files(format=format, grid=grid, type=type, skip=skip)
         held, functions = _held(mesh, faces, values, functions, spacing, origin, nodata)
-    names = ["" if g is None else path_bytes(g) if g.startswith("file:") else g for g in functions]
+    names = ["" if g is None else path_bytes(g) if g.startswith("file:") else text_bytes("f", g) for g in functions]
     outputs = _outputs(output, len(names), several)
     for path in outputs or ():
         warn_of_suffix(path)
@@ -155,12 +155,11 @@ def _run(held, names, outputs, options, report):
         results = _reeb.compute(held, names, [path_bytes(path) for path in outputs], options, report)
         paths = [os.path.abspath(path) for path in outputs]
         return [_open_result({**result, "output": path}, path, None) for result, path in zip(results, paths)]
-    # Unlike mkdtemp, this removes the folder at the end of Python, too, where a daemon thread is stopped.
-    with tempfile.TemporaryDirectory(prefix="reeb-", dir=options.get("temp_dir")) as folder:
-        outputs = [os.path.join(folder, f"{i}.reeb") for i in range(len(names))]
+    with temporary_folder(_decoded(options.get("temp_dir"))) as folder:
+        outputs = [path_bytes(os.path.join(folder, f"{i}.reeb")) for i in range(len(names))]
         try:
             # Temporary files are beside the output.
-            results = _reeb.compute(held, names, outputs, {**options, "temp_dir": folder}, report)
+            results = _reeb.compute(held, names, outputs, {**options, "temp_dir": path_bytes(folder)}, report)
         except Error as error:
             if error.path is None or not error.path.startswith(folder):
                 raise
@@ -257,21 +256,24 @@ def _outputs(output, count, several):
 def _add_common(options, memory, threads, format, temp_dir):
     if memory is not None:
         options["memory"] = (
-            _reeb.parse_size(memory) if isinstance(memory, str) else whole("memory", memory, 0)
+            _reeb.parse_size(text_bytes("memory", memory)) if isinstance(memory, str) else whole("memory", memory, 0)
         )
     if threads is not None:
         options["threads"] = whole("threads", threads, 1, 1024)
     if format is not None:
-        options["format"] = str(format)
+        options["format"] = text_bytes("format", str(format))
     if temp_dir is not None:
         if not is_path(temp_dir):
             raise Error(f"temp_dir={temp_dir!r} is not a path", "the name of a folder", kind="usage")
-        path_bytes(temp_dir)
-        options["temp_dir"] = os.fspath(temp_dir)
-        if not os.path.isdir(options["temp_dir"]):
+        options["temp_dir"] = path_bytes(temp_dir)
+        if not os.path.isdir(temp_dir):
             raise SystemFailure(
-                "the folder for temporary files does not exist", "create it", path=options["temp_dir"], kind="resource"
+                "the folder for temporary files does not exist", "create it", path=os.fspath(temp_dir), kind="resource"
             )
+
+
+def _decoded(path):
+    return None if path is None else os.fsdecode(path)
 
 
 def _add_image(options, spacing, origin, nodata, grid, type_, skip):
@@ -281,9 +283,9 @@ def _add_image(options, spacing, origin, nodata, grid, type_, skip):
         steps = vector("spacing", spacing, (2, 3), "one finite number for each axis, in the order x, y, z")
         options["spacing"] = ",".join(map(repr, steps))
     if grid is not None:
-        options["grid"] = grid if isinstance(grid, str) else _grid(grid)
+        options["grid"] = text_bytes("grid", grid) if isinstance(grid, str) else _grid(grid)
     if type_ is not None:
-        options["type"] = str(type_)
+        options["type"] = text_bytes("type", str(type_))
     if skip is not None:
         options["skip"] = whole("skip", skip, 0)
     if nodata is not None:
@@ -304,7 +306,7 @@ def _add_denoise(options, denoise):
     if not isinstance(denoise, str) and not is_number(denoise):
         raise Error(f"denoise={denoise!r} is not a threshold", 'as 0.01, or "0.1%"', kind="usage")
     text = denoise if isinstance(denoise, str) else repr(float(denoise))
-    options["denoise"] = _reeb.parse_threshold("denoise", text, 0, 1)
+    options["denoise"] = _reeb.parse_threshold("denoise", text_bytes("denoise", text), 0, 1)
     options["denoise_is_share"] = text.strip().endswith("%")
     options["denoise_text"] = text  # for notes
 
@@ -435,6 +437,8 @@ def segment(
     else:
         _refuse_of_files(format=format, grid=grid, type=type, skip=skip)
         is_of_values = values is not None and not isinstance(values, Mapping)
+        if is_of_values and not graph.function.startswith(("value", "property:", "file:")):
+            raise Error(f"the graph is of {graph.function}, not of values", "leave out values", kind="usage")
         functions = [None if is_of_values else graph.function]
         held, _ = _held(mesh, faces, values, functions, spacing, origin, nodata)
     file, version = graph._need_file()
@@ -499,7 +503,7 @@ def defects(
     options = {}
     _add_common(options, memory, threads, format, temp_dir)
     files = _files(graphs)
-    with _Bar(progress) as report, tempfile.TemporaryDirectory(prefix="reeb-", dir=temp_dir) as folder:
+    with _Bar(progress) as report, temporary_folder(temp_dir) as folder:
         if is_path(mesh):
             _refuse_arrays('name its graphs: graphs=["scan.reeb"]', faces)
             path = path_bytes(mesh)
@@ -512,7 +516,7 @@ def defects(
                 if np.ndim(mesh) == 3:
                     raise Error("an image is not a surface", "make an isosurface of it first", kind="usage")
                 raise Error("faces are missing", "reeb.defects(vertices, faces)", kind="usage")
-            path = os.path.join(folder, "mesh.ply")
+            path = path_bytes(os.path.join(folder, "mesh.ply"))
             _write_ply(path, mesh, faces)
         try:
             found = json.loads(_reeb.defects(path, files, options, report))
