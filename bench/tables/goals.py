@@ -43,7 +43,7 @@ def both(*values):
 
 
 def ratio(above, below):
-    return None if above is None or below is None else above / below
+    return None if above is None or not below else above / below
 
 
 def rate(figures, name, count="triangles"):
