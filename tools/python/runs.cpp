@@ -146,6 +146,7 @@ ComputeOptions compute_options(const py::dict& given, WatchedRun& run) {
   take_image(given, options.image);
   take(given, "temp_dir", options.temp_dir);
   take(given, "reorder", options.may_reorder);
+  take(given, "manifold", options.manifold);
   take(given, "sidecar", options.keep_sidecar);
   take(given, "chunk", options.chunk_triangles);
   take(given, "snapshot_every", options.snapshot_every);

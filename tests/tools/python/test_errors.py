@@ -555,9 +555,20 @@ def test_texts_that_are_not_utf8_are_errors_like_others(bad):
             reeb.compute(vertices, faces, **options)
     with pytest.raises(reeb.Error):
         reeb.compute(vertices, faces).level(bad)
+    with pytest.raises(reeb.Error):
+        reeb.compute(vertices, faces, {bad: [1, 2, 3]}, "property:other")
 
 
 @pytest.mark.parametrize("bad", [[[1], [1, 2]], "x", None, [[1]], 1.5])
 def test_what_is_finalized_is_an_array_of_indices(bad):
     with pytest.raises(reeb.Error, match="ids"):
         reeb.Online().finalize(bad)
+
+
+def test_a_promise_of_manifold_edges_that_is_broken_is_an_error():
+    faces = [[0, 1, 2], [0, 1, 3], [0, 1, 4]]
+    vertices = np.array([[0, 0, 0], [1, 0, 1], [0, 1, 2], [0, 1, 3], [1, 1, 4.0]])
+    assert reeb.compute(vertices, faces[:2], manifold=True) == reeb.compute(vertices, faces[:2])
+    with pytest.raises(reeb.Error, match="has a third triangle") as caught:
+        reeb.compute(vertices, faces, manifold=True)
+    assert "manifold=True" in caught.value.hint

@@ -28,6 +28,7 @@ class _Options(TypedDict, total=False):
     type: str | None
     skip: int | None
     reorder: bool
+    manifold: bool
     sidecar: bool
     snapshot_every: int | None
     chunk: int | None

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from . import _reeb
-from ._arguments import described, is_number, vector
+from ._arguments import described, is_number, text_bytes, vector
 from ._networks import is_network, parts_of_network, values_of_network
 from .errors import Error
 
@@ -121,7 +121,9 @@ def mesh_of_arrays(vertices, faces, values):
         simplices = simplices_of_cells(faces, len(vertices))
     else:
         simplices = [("faces", simplex_array("faces", faces))]
-    columns = [(name, value_array(name, array, len(vertices))) for name, array in values.items()]
+    columns = [
+        (text_bytes("values", str(name)), value_array(name, array, len(vertices))) for name, array in values.items()
+    ]
     return _reeb.HeldMesh.of_arrays(vertices, columns, simplices)
 
 

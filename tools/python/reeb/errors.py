@@ -97,6 +97,7 @@ _NAMES = (
     (re.compile(r"--resume"), "resume=True"),
     (re.compile(r"--graph-only"), "graph_only=True"),
     (re.compile(r"--no-reorder"), "reorder=False"),
+    (re.compile(r"--manifold"), "manifold=True"),
     (re.compile(r"--nodata skip"), 'nodata="skip"'),
     (re.compile(r"--temp-dir DIR"), 'temp_dir="DIR"'),
     (re.compile(r"--temp-dir"), "temp_dir"),

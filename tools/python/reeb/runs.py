@@ -38,6 +38,7 @@ def compute(
     type=None,
     skip=None,
     reorder=True,
+    manifold=False,
     sidecar=False,
     snapshot_every=None,
     chunk=None,
@@ -78,6 +79,7 @@ def compute(
             declares); a number leaves out those of this value, too.
         grid, type, skip: of a raw file, as the program's options: "256x256x100", "u16le", bytes.
         reorder, chunk, temp_dir: as the program's options of these names.
+        manifold: no edge has more than two triangles, so each is dropped after its second; a third is an error.
         sidecar, resume: as the program's options; of a path only, and resume needs an output.
         snapshot_every: triangles after which the graph so far is written beside the output.
         force: replaces an existing output.
@@ -97,6 +99,7 @@ def compute(
         "graph_only": bool(graph_only),
         "buckets": whole("buckets", buckets, 0, 1 << 20),
         "reorder": bool(reorder),
+        "manifold": bool(manifold),
         "sidecar": bool(sidecar),
         "resume": bool(resume),
         "replace": bool(force),
