@@ -42,12 +42,6 @@ class PartitionLogs {
     }
   }
 
-  // The size of blocks for this many parts, which together take at most `bytes` unless even the small ones take more.
-  // Large ones save calls; four times the size saves no more.
-  static std::size_t block_bytes_within(std::uint64_t bytes, std::size_t parts) {
-    return parts * 2 * kBlockBytes <= bytes ? 2 * kBlockBytes : kBlockBytes;
-  }
-
   void append(std::size_t index, const Record& record) {
     Part& part = parts_[index];
     if (part.at == part.full) [[unlikely]] {

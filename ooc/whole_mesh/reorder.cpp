@@ -50,8 +50,8 @@ class Reorder {
         use_(use),
         vertex_count_(mesh.vertex_count()),
         slices_(vertex_count_, options.allowance_bytes / 4 / sizeof(Rank)),
-        block_bytes_(PartitionLogs<Rank>::block_bytes_within(options.allowance_bytes / 8, 2 * slices_.count())),
-        has_two_threads_(options.threads > 1 && slices_bytes() <= options.allowance_bytes / 4),
+        block_bytes_(has_room_for(kLargeBlock) ? kLargeBlock : kSmallBlock),
+        has_two_threads_(options.threads > 1 && has_room_for(kSmallBlock)),
         ranks_(temp.create_unnamed("ranks")),
         result_(std::make_unique<ReorderedMesh>(mesh, temp, budget, options.allowance_bytes / 4)) {}
 
@@ -79,6 +79,8 @@ class Reorder {
     PartitionLogs<std::array<std::uint16_t, 3>> slices;  // of each triangle
   };
   enum class Thread { kOwner, kWorker };
+  // Of partitions. Large ones save calls; blocks of twice that save no more.
+  static constexpr std::size_t kSmallBlock = PartitionLogs<Rank>::kBlockBytes, kLargeBlock = 2 * kSmallBlock;
 
   // The double is in two parts, so that it needs no space before it.
   struct PlacedNumber {
@@ -359,9 +361,10 @@ class Reorder {
     return {
         .allowance_bytes = options_.allowance_bytes / 2, .threads = options_.threads, .background = has_two_threads_};
   }
-  // What both threads hold at most beside what is sorted: three partitions, and a slice of numbers and one of ranks.
-  std::uint64_t slices_bytes() const {
-    return 3 * slices_.count() * block_bytes_ + slices_.entries() * (8 + sizeof(Rank));
+  // Whether two threads can hold three partitions with such blocks, a slice of numbers and one of ranks, beside what is
+  // sorted. That is the most that they hold.
+  bool has_room_for(std::size_t block_bytes) const {
+    return 3 * slices_.count() * block_bytes + slices_.entries() * (8 + sizeof(Rank)) <= options_.allowance_bytes / 4;
   }
   Rank place_of(std::uint64_t id) const { return static_cast<Rank>(slices_.place_of(id)); }
 
