@@ -30,12 +30,6 @@ FrameFile::FrameFile(const std::string& path) : file_(io::File::open_for_reading
   }
 }
 
-std::vector<std::byte> FrameFile::bytes() const {
-  std::vector<std::byte> bytes(static_cast<std::size_t>(file_.size()));
-  file_.read_at(0, bytes);
-  return bytes;
-}
-
 void FrameFile::require_version(std::uint32_t version) const {
   if (version <= header_.steps) return;
   throw Error(ErrorKind::kBadInput, "there is no version " + std::to_string(version),

@@ -25,7 +25,7 @@ class FrameFile {
   const FileHeader& header() const { return header_; }
   const std::string& path() const { return file_.path(); }
   std::uint64_t file_bytes() const { return file_.size(); }
-  std::vector<std::byte> bytes() const;
+  void read_all(std::span<std::byte> bytes) const { file_.read_at(0, bytes); }
   // THROWS: Error{kBadInput} if the file has no such version.
   void require_version(std::uint32_t version) const;
 

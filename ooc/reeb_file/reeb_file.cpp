@@ -95,7 +95,7 @@ ReebFile::~ReebFile() = default;
 const FileHeader& ReebFile::header() const { return frames_->header(); }
 const std::string& ReebFile::path() const { return frames_->path(); }
 std::uint64_t ReebFile::file_bytes() const { return frames_->file_bytes(); }
-std::vector<std::byte> ReebFile::bytes() const { return frames_->bytes(); }
+void ReebFile::read_all(std::span<std::byte> bytes) const { frames_->read_all(bytes); }
 const Error* ReebFile::damage() const { return frames_->damage(); }
 
 void ReebFile::require_hierarchy(const char* what) const {

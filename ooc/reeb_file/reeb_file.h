@@ -71,8 +71,9 @@ class ReebFile {
   std::span<const LevelLine> levels() const { return header().levels; }
   const std::string& path() const;
   std::uint64_t file_bytes() const;
-  // All of the file. It is the file that was opened, also if another one has its name by now.
-  std::vector<std::byte> bytes() const;
+  // All of the file, which is the one that was opened, also if another one has its name by now.
+  // REQUIRES: bytes.size() == file_bytes().
+  void read_all(std::span<std::byte> bytes) const;
 
   // Null for a whole file; else what is wrong after the header, and where. Levels that need the missing part are
   // refused.

@@ -104,22 +104,14 @@ bool is_of_grid(const Checkpoint& start) {
   return start.origin == ChunkOrigin::kGrid || start.origin == ChunkOrigin::kMaskedGrid;
 }
 
-// A vertex has six times as many triangles as in a surface, so a usual chunk is a small box, with half of its vertices
-// on its faces, and gluing takes most of the time. Where memory is free, boxes are larger.
-std::size_t masked_box_triangles(const RunContext& run) {
-  constexpr std::size_t kTimesUsual = 4;
-  const std::size_t first = run.plan.chunk.first;
-  const bool is_usual = run.options.chunk_triangles == 0 && first == ChunkSize{}.first;
-  return is_usual ? kTimesUsual * first : first;
-}
-
 // Boxes without triangles are faster, but their vertices cannot be followed, and all of them must be there.
 FirstStageResult run_grid(RunContext& run, const MeshInput& input, const Checkpoint* start, FirstStageResult result) {
   const bool has_triangles = run.follower != nullptr || !input.reader->info().vertex_count;
   const auto chunks = has_triangles ? chunks_of_masked_grid : chunks_of_grid;
   const ChunkOrigin origin = has_triangles ? ChunkOrigin::kMaskedGrid : ChunkOrigin::kGrid;
   if (start != nullptr && start->origin != origin) throw DamagedState();
-  const std::size_t box = has_triangles ? masked_box_triangles(run) : run.plan.chunk.first;
+  const bool is_volume = std::ranges::none_of(input.reader->info().grid->size, [](auto n) { return n == 1; });
+  const std::size_t box = has_triangles && is_volume ? run.plan.box_triangles() : run.plan.chunk.first;
   const auto source = chunks(*input.reader, run.values, run.budget, box, place_of(start));
   result = glue_chunks(run, *source, run.plan, {.origin = origin}, std::move(result));
   for (VertexFunction* function : run.functions) function->check_count(result.vertex_bound);

@@ -136,6 +136,13 @@ std::uint64_t MemoryPlan::triangle_bytes() const {
   return chunk_bytes(allows_threads() ? kPlannedThreads : 1, request_.functions);
 }
 
+std::size_t MemoryPlan::box_triangles() const {
+  constexpr std::uint64_t kShare = 24;  // of the budget
+  if (request_.chunk_triangles != 0) return chunk.first;
+  return static_cast<std::size_t>(
+      std::clamp<std::uint64_t>(budget_bytes / kShare / triangle_bytes(), chunk.first, 4 * chunk.first));
+}
+
 // A rough function takes up to twice as much for the live graph, so half of the room stays free.
 void MemoryPlan::share_out(const FrontNeeds& needs) {
   const std::uint64_t live = needs.live_vertices * vertex_bytes_;

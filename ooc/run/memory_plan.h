@@ -46,6 +46,10 @@ class MemoryPlan {
   std::uint64_t most_live_vertices() const;
   // A memory limit for the whole process with which they fit.
   std::uint64_t needed_bytes(const FrontNeeds& needs) const;
+  // Triangles of a box of a volume. A vertex of it has six times as many as one of a surface, so a box as large as a
+  // usual chunk has half of its vertices on its faces, and gluing takes most of the time. Where memory is free, boxes
+  // are up to four times as large.
+  std::size_t box_triangles() const;
   // Gives chunks the memory that the live graphs leave. The result depends on the request and the needs only, so a
   // resumed run cuts the same chunks.
   void share_out(const FrontNeeds& needs);

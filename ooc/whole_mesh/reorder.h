@@ -62,7 +62,8 @@ struct SortedMesh {
 };
 
 // The same with the last uses of the vertices, which are found while the triangles are stored: that takes a fraction of
-// the time of a scan. `uses` must not allow it to give up; its progress is not called.
+// the time of a scan. MEMORY: the allowance of `uses`, and 4 bytes for each of its blocks, in addition.
+// REQUIRES: `uses` does not allow giving up, and has no progress.
 SortedMesh reorder_with_last_uses(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget,
                                   const ReorderOptions& options, const LastUseOptions& uses);
 

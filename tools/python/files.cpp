@@ -64,7 +64,7 @@ void write_file(const std::string& path, const py::bytes& content, bool force) {
 py::dict header_of(const ooc::ReebFile& file) {
   const FileHeader& header = file.header();
   py::dict dict;
-  dict["function"] = text_of(header.function);
+  dict["function"] = name_of(header.function);
   dict["min"] = header.function_min;
   dict["max"] = header.function_max;
   dict["vertices"] = header.mesh_vertices;
@@ -86,12 +86,13 @@ py::dict header_of(const ooc::ReebFile& file) {
 }
 
 py::bytes bytes_of(const ooc::ReebFile& file) {
-  std::vector<std::byte> bytes;
-  {
-    const WithoutGil released;
-    bytes = file.bytes();
-  }
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  const std::size_t size = static_cast<std::size_t>(file.file_bytes());
+  auto bytes = py::reinterpret_steal<py::bytes>(PyBytes_FromStringAndSize(nullptr, static_cast<py::ssize_t>(size)));
+  if (!bytes) throw py::error_already_set();
+  const std::span<char> content(PyBytes_AS_STRING(bytes.ptr()), size);
+  const WithoutGil released;
+  file.read_all(std::as_writable_bytes(content));
+  return bytes;
 }
 
 py::list levels_of(const ooc::ReebFile& file) {

@@ -36,10 +36,13 @@ void translate(std::exception_ptr thrown) {
 
 }  // namespace
 
-py::object text_of(const std::string& bytes) {
+static py::object decoded(const std::string& bytes, const char* errors) {
   return py::reinterpret_steal<py::object>(
-      PyUnicode_DecodeUTF8(bytes.data(), static_cast<py::ssize_t>(bytes.size()), "backslashreplace"));
+      PyUnicode_DecodeUTF8(bytes.data(), static_cast<py::ssize_t>(bytes.size()), errors));
 }
+
+py::object text_of(const std::string& bytes) { return decoded(bytes, "backslashreplace"); }
+py::object name_of(const std::string& bytes) { return decoded(bytes, "surrogateescape"); }
 
 }  // namespace reeb::python
 

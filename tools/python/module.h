@@ -7,8 +7,10 @@
 
 namespace reeb::python {
 
-// As Python's text. A name may have any bytes, as those of a property do; what is not UTF-8 is written as \xFF.
+// As Python's text, to be read: what is not UTF-8 is written as \xFF.
 pybind11::object text_of(const std::string& bytes);
+// The same for a name that may be passed on: what is not UTF-8 becomes what text_bytes() of the package turns back.
+pybind11::object name_of(const std::string& bytes);
 
 // compute(), segment(), defects(), and the meshes in memory that they take.
 void add_runs(pybind11::module_& module);

@@ -158,7 +158,7 @@ ComputeOptions compute_options(const py::dict& given, WatchedRun& run) {
 
 py::dict to_dict(const ComputeResult& result) {
   py::dict dict;
-  dict["function"] = text_of(result.function);
+  dict["function"] = name_of(result.function);
   dict["min"] = result.range.min;
   dict["max"] = result.range.max;
   dict["vertices"] = result.vertices;

@@ -141,6 +141,17 @@ TEST(MemoryPlan, AUsersChunksAreNotLargerThanMemory) {
   }
 }
 
+// Boxes of a volume are larger only where memory is free.
+TEST(MemoryPlan, BoxesOfVolumes) {
+  for (const std::uint64_t limit : {kSmallestLimit, 92 * kMiB, 128 * kMiB, 256 * kMiB}) {
+    const MemoryPlan p = plan({}, limit);
+    EXPECT_EQ(p.box_triangles(), p.chunk.first) << limit;
+  }
+  const MemoryPlan free = plan({}, 16384 * kMiB);
+  EXPECT_EQ(free.box_triangles(), 4 * ChunkSize{}.first);
+  EXPECT_EQ(plan({.chunk_triangles = 100}, 16384 * kMiB).box_triangles(), 100u);
+}
+
 TEST(MemoryPlan, LessThanTheLeastIsRefused) {
   EXPECT_NO_THROW(plan({}, kSmallestLimit));
   for (const std::uint64_t limit : {std::uint64_t{0}, kSmallestLimit - 1}) try {

@@ -572,3 +572,33 @@ def test_a_promise_of_manifold_edges_that_is_broken_is_an_error():
     with pytest.raises(reeb.Error, match="has a third triangle") as caught:
         reeb.compute(vertices, faces, manifold=True)
     assert "manifold=True" in caught.value.hint
+
+
+FORKS = """
+import os, sys, threading
+import numpy, reeb
+image = numpy.random.default_rng(1).random((400, 400))
+graphs = []
+begun = threading.Event()
+thread = threading.Thread(target=lambda: graphs.append(reeb.compute(image, progress=lambda *_: begun.set())))
+thread.start()
+begun.wait()
+child = os.fork()
+if child == 0:
+    sys.exit(0)  # which removes no folder of its parent
+assert os.waitpid(child, 0)[1] == 0
+thread.join()
+print(graphs[0] == reeb.compute(image))
+"""
+AT_EXIT = """
+import atexit, reeb
+vertices, faces = [[0, 0, 0], [1, 0, 1], [0, 1, 2]], [[0, 1, 2]]
+atexit.register(lambda: print(len(reeb.compute(vertices, faces).nodes) == 2))
+reeb.compute(vertices, faces)
+"""
+
+
+@pytest.mark.parametrize("words", [FORKS, AT_EXIT])
+def test_folders_at_the_end_of_a_process(words):
+    ended = subprocess.run([sys.executable, "-c", words], capture_output=True, text=True, timeout=60)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (0, "True\n", "")

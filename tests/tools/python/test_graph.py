@@ -394,13 +394,29 @@ def test_names_that_are_not_utf8(tmp_path):
     text = head + "property float h\udcf6he\n" + faces + "0 0 0 1\n1 0 0 2\n0 1 0 3\n3 0 1 2\n"
     mesh.write_bytes(os.fsencode(text))
     graph = reeb.compute(mesh, f="property:h\udcf6he", output=tmp_path / "graph.reeb")
-    assert graph.function == reeb.open(tmp_path / "graph.reeb").function == "property:h\\xf6he"
+    assert graph.function == reeb.open(tmp_path / "graph.reeb").function == "property:h\udcf6he"
+    assert "property:h\\xf6he" in repr(graph)
     assert list(reeb.segment(graph, mesh).labels) == [-1, 0, -2]
+
+    vertices, faces = np.array([[0, 0, 0], [1, 0, 1], [0, 1, 2.0]]), [[0, 1, 2]]
+    values = {"\udcff": [1, 2, 3]}
+    graph = reeb.compute(vertices, faces, values, "property:\udcff")
+    assert list(reeb.segment(graph, vertices, faces, values).labels) == [-1, 0, -2]
 
     folder = tmp_path / "temporary\udcff"
     folder.mkdir()
-    vertices, faces = np.array([[0, 0, 0], [1, 0, 1], [0, 1, 2.0]]), [[0, 1, 2]]
     graph = reeb.compute(vertices, faces, temp_dir=folder)
     assert list(reeb.segment(graph, vertices, faces, temp_dir=folder).labels) == [-1, 0, -2]
     assert len(reeb.defects(vertices, faces, temp_dir=folder).loops) == 0
     assert not any(folder.iterdir())
+
+
+def test_names_do_not_depend_on_the_locale():
+    words = """
+import reeb
+vertices, faces = [[0, 0, 0], [1, 0, 1], [0, 1, 2]], [[0, 1, 2]]
+graph = reeb.compute(vertices, faces, {"h\\xf6he": [1, 2, 3]}, "property:h\\xf6he")
+assert graph.function == "property:h\\xf6he", ascii(graph.function)
+"""
+    locale = {**os.environ, "LC_ALL": "POSIX", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+    subprocess.run([sys.executable, "-c", words], check=True, env=locale)

@@ -27,11 +27,16 @@ def path_bytes(path):
 
 
 def text_bytes(name, text):
-    """A text as the compiled part takes it, also one with bytes that are not UTF-8, as os.fsdecode gives."""
+    """A text as the compiled part takes it: UTF-8, whatever the locale; also with other bytes, as os.fsdecode gives."""
     try:
-        return os.fsencode(text)
+        return text.encode("utf-8", "surrogateescape")
     except UnicodeEncodeError:
         raise Error(f"{name}={text!r} cannot be encoded", "a text of characters", kind="usage") from None
+
+
+def printable(text):
+    """A text that can be printed, where bytes that are not UTF-8 are as \\xFF."""
+    return text.encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")
 
 
 def check_output(path):
@@ -56,7 +61,7 @@ def described(thing):
 def is_number(thing):
     """What float() takes, but for texts and complex numbers."""
     try:
-        is_real = isinstance(thing, (int, float, np.number)) and not isinstance(thing, np.complexfloating)
+        is_real = isinstance(thing, (int, float, np.number, np.bool_)) and not isinstance(thing, np.complexfloating)
         return is_real and float(thing) is not None
     except (TypeError, OverflowError):
         return False

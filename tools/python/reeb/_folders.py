@@ -7,48 +7,54 @@ import tempfile
 import threading
 
 _changed = threading.Condition()
-_used = 0
+_folders = set()
 _is_registered = _ends = False
 
 
 @contextlib.contextmanager
 def temporary_folder(dir=None):
     """The name of a new folder. Unlike that of mkdtemp, it is removed at the end of Python, too."""
-    global _used
     with _changed:
-        _changed.wait_for(lambda: not _ends)  # a daemon thread then ends with Python
-        _used += 1
+        # At the end, other threads wait here until Python stops them. What is registered with atexit may go on.
+        _changed.wait_for(lambda: not _ends or threading.current_thread() is threading.main_thread())
+        folder = tempfile.TemporaryDirectory(prefix="reeb-", dir=dir)
+        _folders.add(folder)
+        _register()
     try:
-        with tempfile.TemporaryDirectory(prefix="reeb-", dir=dir) as folder:
-            _register()
-            yield folder
+        yield folder.name
     finally:
         with _changed:
-            _used -= 1
-            _changed.notify_all()
+            if folder in _folders:  # else this is a process that was forked
+                try:
+                    folder.cleanup()
+                finally:
+                    _folders.remove(folder)
+                    _changed.notify_all()
 
 
 # What is registered last is called first. So folders are removed after this wait only if it is registered after the
 # first of them was made.
 def _register():
     global _is_registered
-    with _changed:
-        if not _is_registered:
-            atexit.register(_wait_for_users)
-            _is_registered = True
+    if not _is_registered:
+        atexit.register(_wait_for_users)
+        _is_registered = True
 
 
 def _wait_for_users():
     global _ends
     with _changed:
         _ends = True
-        _changed.wait_for(lambda: _used == 0)
+        _changed.wait_for(lambda: not _folders)
 
 
-# The threads that use folders are not in the new process.
+# The folders are those of the process that made them, and so are the threads that use them.
 def _start_over():
-    global _changed, _used
-    _changed, _used = threading.Condition(), 0
+    global _changed
+    _changed = threading.Condition()
+    for folder in _folders:
+        folder._finalizer.detach()
+    _folders.clear()
 
 
 os.register_at_fork(after_in_child=_start_over)

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import _reeb
-from ._arguments import check_output, is_number, is_path, path_bytes, text_bytes, vector, warn_of_suffix, whole
+from ._arguments import check_output, is_number, is_path, path_bytes, printable, text_bytes, vector, warn_of_suffix, whole
 from ._folders import temporary_folder
 from .errors import Error, MissingPackage, without_path
 
@@ -383,7 +383,7 @@ class Graph:
             nodes, arcs = len(self.nodes), len(self.arcs)
         level = f", level of threshold {self.threshold:g}" if self._version else ""
         size = f"{nodes} node{'s' * (nodes != 1)}, {arcs} arc{'s' * (arcs != 1)}"
-        return f"<reeb.Graph of {self.function or 'a stream'}: {size}{level}>"
+        return f"<reeb.Graph of {printable(self.function) or 'a stream'}: {size}{level}>"
 
     def _repr_html_(self):
         from html import escape
@@ -466,7 +466,7 @@ class Graph:
             value = _reeb.parse_threshold("threshold", text_bytes("threshold", threshold), least, greatest)
         value = float(value)
         text = _threshold_text(threshold)
-        if math.isfinite(value) and (note := _reeb.large_threshold(text, least, greatest, self.function)):
+        if math.isfinite(value) and (note := _reeb.large_threshold(text, least, greatest, text_bytes("function", self.function))):
             warnings.warn(note, stacklevel=3)
         return file.version_at(value)
 

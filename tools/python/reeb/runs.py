@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import _arrays, _reeb
-from ._arguments import described, is_number, is_path, path_bytes, text_bytes, vector, warn_of_suffix, whole
+from ._arguments import described, is_number, is_path, path_bytes, printable, text_bytes, vector, warn_of_suffix, whole
 from ._folders import temporary_folder
 from .errors import Error, SystemFailure, without_path
 from .graph import Graph, _open_result
@@ -441,7 +441,7 @@ def segment(
         _refuse_of_files(format=format, grid=grid, type=type, skip=skip)
         is_of_values = values is not None and not isinstance(values, Mapping)
         if is_of_values and not graph.function.startswith(("value", "property:", "file:")):
-            raise Error(f"the graph is of {graph.function}, not of values", "leave out values", kind="usage")
+            raise Error(f"the graph is of {printable(graph.function)}, not of values", "leave out values", kind="usage")
         functions = [None if is_of_values else graph.function]
         held, _ = _held(mesh, faces, values, functions, spacing, origin, nodata)
     file, version = graph._need_file()
