@@ -10,6 +10,7 @@
 #include "ooc/chunks/last_use_sidecar.h"
 #include "ooc/chunks/spooled_mesh.h"
 #include "ooc/grids/grid_chunks.h"
+#include "ooc/grids/grid_layers.h"
 #include "ooc/guesses/guessed_chunks.h"
 #include "ooc/run/glued_chunks.h"
 #include "ooc/run/mesh_order.h"
@@ -110,7 +111,7 @@ FirstStageResult run_grid(RunContext& run, const MeshInput& input, const Checkpo
   const auto chunks = has_triangles ? chunks_of_masked_grid : chunks_of_grid;
   const ChunkOrigin origin = has_triangles ? ChunkOrigin::kMaskedGrid : ChunkOrigin::kGrid;
   if (start != nullptr && start->origin != origin) throw DamagedState();
-  const bool is_volume = std::ranges::none_of(input.reader->info().grid->size, [](auto n) { return n == 1; });
+  const bool is_volume = GridAxes(input.reader->info().grid->size).count == 3;
   const std::size_t box = has_triangles && is_volume ? run.plan.box_triangles() : run.plan.chunk.first;
   const auto source = chunks(*input.reader, run.values, run.budget, box, place_of(start));
   result = glue_chunks(run, *source, run.plan, {.origin = origin}, std::move(result));

@@ -121,8 +121,8 @@ std::uint32_t PageCache::evict_one() {
   return victim;
 }
 
-// Writes the page of a frame, and with it those that follow in memory and in the file and will be next: one call costs
-// less than one for each page.
+// Writes the page of a frame, and with it the pages that follow it in memory and in the file, and that would be written
+// next.
 void PageCache::write_from(std::size_t first) {
   const Frame& frame = frames_[first];
   std::size_t end = first + 1;

@@ -19,7 +19,8 @@ namespace reeb::ooc {
 // repetitions of a second pattern when its turn comes is not written either; the directory says what it is.
 //
 // Pages are small, since most of what is needed again is a line of vertices here and there: the border of each patch,
-// the last row. The system collects writes, so small pages cost it little more time than large ones.
+// the last row. Pages that follow each other are written in one call, so small ones cost little more time than large
+// ones.
 //
 // MEMORY: each resident page, and 4 bytes for each page ever named, are reserved from the budget.
 // THREADS: one at a time.

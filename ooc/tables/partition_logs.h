@@ -27,7 +27,8 @@ class PartitionLogs {
   static_assert(std::is_trivially_copyable_v<Record>);
 
  public:
-  static constexpr std::size_t kBlockBytes = 16 << 10;  // unless others are asked for
+  // Blocks are small unless others are asked for. Large ones save calls; twice their size saves no more.
+  static constexpr std::size_t kBlockBytes = 16 << 10, kLargeBlockBytes = 2 * kBlockBytes;
 
   PartitionLogs(const char* owner, const io::TempDir& temp, MemoryBudget& budget, std::size_t parts,
                 std::size_t block_bytes = kBlockBytes)
@@ -97,7 +98,7 @@ class PartitionLogs {
   struct Part {
     std::unique_ptr<Record[]> block;  // the current one
     Record* at = nullptr;             // in it, where the next record is appended; stays when reading starts
-    const Record* full = nullptr;     // its end
+    const Record* full = nullptr;     // its end, with which every append compares
     const Record* next = nullptr;     // in it, to be read; up to `end`
     const Record* end = nullptr;
     std::uint64_t written = 0, fetched = 0;  // records in full blocks of the file, and up to `end`

@@ -56,8 +56,8 @@ class RankedTriangles {
     part_bits_ = static_cast<unsigned>(std::bit_width(std::max(kLeastEntries, vertices / kParts)) - 1);
     parts_ = static_cast<std::size_t>((vertices >> part_bits_) + 1);
     const std::uint64_t parts = lanes * parts_;
-    const bool large = parts * 2 * Logs::kBlockBytes <= sorting.allowance_bytes / 4;  // large blocks save calls
-    const std::size_t block_bytes = (large ? 2 : 1) * Logs::kBlockBytes;
+    const bool has_room = parts * Logs::kLargeBlockBytes <= sorting.allowance_bytes / 4;
+    const std::size_t block_bytes = has_room ? Logs::kLargeBlockBytes : Logs::kBlockBytes;
     const std::uint64_t logs = parts * block_bytes;
     if (logs + kUsualTriangles * part_entries() * kTriangleBytes > sorting.allowance_bytes) {
       all_.emplace("reorder", temp, budget, sorting);

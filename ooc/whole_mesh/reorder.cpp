@@ -34,7 +34,7 @@ struct StopAtEnd {
   ~StopAtEnd() { stops = true; }
 };
 
-// Called with the corners of some triangles at a time, in their new order, when all else has its memory.
+// Called with the corners of some triangles at a time, in their new order. The sort has reserved its memory by then.
 using UseTriangles = std::function<void(std::span<const VertexId>)>;
 
 // Ranks have 32 bits where that suffices: what is written to disk is most of the time.
@@ -50,8 +50,8 @@ class Reorder {
         use_(use),
         vertex_count_(mesh.vertex_count()),
         slices_(vertex_count_, options.allowance_bytes / 4 / sizeof(Rank)),
-        block_bytes_(has_room_for(kLargeBlock) ? kLargeBlock : kSmallBlock),
-        has_two_threads_(options.threads > 1 && has_room_for(kSmallBlock)),
+        block_bytes_(has_room_for(Logs::kLargeBlockBytes) ? Logs::kLargeBlockBytes : Logs::kBlockBytes),
+        has_two_threads_(options.threads > 1 && has_room_for(Logs::kBlockBytes)),
         ranks_(temp.create_unnamed("ranks")),
         result_(std::make_unique<ReorderedMesh>(mesh, temp, budget, options.allowance_bytes / 4)) {}
 
@@ -71,16 +71,15 @@ class Reorder {
   }
 
  private:
+  using Logs = PartitionLogs<Rank>;
   using Triangles = RankedTriangles<Rank>;
   using Triangle = RankedTriangle<Rank>;
   // The corners of every other batch of triangles, or of all.
   struct Lane {
-    PartitionLogs<Rank> ranks;                           // by slice; first, their places in it
+    Logs ranks;                                          // by slice; first, their places in it
     PartitionLogs<std::array<std::uint16_t, 3>> slices;  // of each triangle
   };
   enum class Thread { kOwner, kWorker };
-  // Of partitions. Large ones save calls; blocks of twice that save no more.
-  static constexpr std::size_t kSmallBlock = PartitionLogs<Rank>::kBlockBytes, kLargeBlock = 2 * kSmallBlock;
 
   // The double is in two parts, so that it needs no space before it.
   struct PlacedNumber {
@@ -328,7 +327,7 @@ class Reorder {
   }
 
   // Replaces the places of corners in their slices by ranks.
-  void rank_places(PartitionLogs<Rank>& corners, Thread thread) {
+  void rank_places(Logs& corners, Thread thread) {
     const Reservation charge = budget_.reserve("reorder", slices_.entries() * sizeof(Rank));
     std::vector<Rank> slice;
     for (std::size_t s = 0; s < slices_.count(); ++s) {

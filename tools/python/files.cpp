@@ -90,8 +90,10 @@ py::bytes bytes_of(const ooc::ReebFile& file) {
   auto bytes = py::reinterpret_steal<py::bytes>(PyBytes_FromStringAndSize(nullptr, static_cast<py::ssize_t>(size)));
   if (!bytes) throw py::error_already_set();
   const std::span<char> content(PyBytes_AS_STRING(bytes.ptr()), size);
-  const WithoutGil released;
-  file.read_all(std::as_writable_bytes(content));
+  {
+    const WithoutGil released;
+    file.read_all(std::as_writable_bytes(content));
+  }
   return bytes;
 }
 

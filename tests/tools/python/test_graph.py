@@ -384,7 +384,8 @@ def test_values_are_refused_where_the_graph_is_of_something_else():
     vertices, faces = np.array([[0, 0, 0], [1, 0, 1], [0, 1, 2.0]]), [[0, 1, 2]]
     with pytest.raises(reeb.Error, match="the graph is of z, not of values"):
         reeb.segment(reeb.compute(vertices, faces), vertices, faces, [9, 9, 9])
-    assert list(reeb.segment(reeb.compute(vertices, faces, [2, 0, 1]), vertices, faces, [2, 0, 1]).labels) == [-2, -1, 0]
+    graph = reeb.compute(vertices, faces, [2, 0, 1])
+    assert list(reeb.segment(graph, vertices, faces, [2, 0, 1]).labels) == [-2, -1, 0]
 
 
 def test_names_that_are_not_utf8(tmp_path):

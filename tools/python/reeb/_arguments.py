@@ -6,6 +6,7 @@ import warnings
 
 import numpy as np
 
+from . import _reeb
 from .errors import Error
 
 MOST = (1 << 63) - 1
@@ -78,6 +79,11 @@ def whole(name, value, least, most=MOST):
     if not least <= number <= most:
         raise Error(f"{name}={value!r} is out of range", f"{least} to {most}", kind="usage")
     return number
+
+
+def size(name, value):
+    """Bytes, of a number or of a text like "64M"."""
+    return _reeb.parse_size(text_bytes(name, value)) if isinstance(value, str) else whole(name, value, 0)
 
 
 def vector(name, given, counts, hint):

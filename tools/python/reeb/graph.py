@@ -10,7 +10,18 @@ from typing import NamedTuple
 import numpy as np
 
 from . import _reeb
-from ._arguments import check_output, is_number, is_path, path_bytes, printable, text_bytes, vector, warn_of_suffix, whole
+from ._arguments import (
+    check_output,
+    is_number,
+    is_path,
+    path_bytes,
+    printable,
+    size,
+    text_bytes,
+    vector,
+    warn_of_suffix,
+    whole,
+)
 from ._folders import temporary_folder
 from .errors import Error, MissingPackage, without_path
 
@@ -455,9 +466,7 @@ class Graph:
         if nodes is not None:
             return file.finest_with_nodes(whole("nodes", nodes, 0))
         if memory is not None:
-            return file.finest_with_memory(
-                _reeb.parse_size(text_bytes("memory", memory)) if isinstance(memory, str) else whole("memory", memory, 0)
-            )
+            return file.finest_with_memory(size("memory", memory))
         if not isinstance(threshold, str) and (not is_number(threshold) or not threshold >= 0):
             raise Error(f"threshold={threshold!r} is not a threshold", 'as 0.01, or "0.1%"', kind="usage")
         least, greatest = self.range
@@ -466,7 +475,8 @@ class Graph:
             value = _reeb.parse_threshold("threshold", text_bytes("threshold", threshold), least, greatest)
         value = float(value)
         text = _threshold_text(threshold)
-        if math.isfinite(value) and (note := _reeb.large_threshold(text, least, greatest, text_bytes("function", self.function))):
+        function = text_bytes("function", self.function)
+        if math.isfinite(value) and (note := _reeb.large_threshold(text, least, greatest, function)):
             warnings.warn(note, stacklevel=3)
         return file.version_at(value)
 

@@ -64,11 +64,9 @@ class Online:
         Args:
             ids: (n,) integers, or one.
         """
-        array = ids if isinstance(ids, np.ndarray) or not np.isscalar(ids) else [ids]
-        array = _arrays.numbers("ids", array, (0, 1), "the indices of vertices", of_indices=True)
+        array = np.atleast_1d(_arrays.numbers("ids", ids, (0, 1), "the indices of vertices", of_indices=True))
         if array.size == 0:
             return
-        array = np.atleast_1d(array)
         if array.dtype.kind == "f":
             raise Error("ids has numbers that are not integers", "the indices of vertices")
         self._graph.finalize(np.ascontiguousarray(array, np.int64), array.dtype.kind == "u")

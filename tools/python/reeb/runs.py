@@ -9,7 +9,18 @@ from typing import NamedTuple
 import numpy as np
 
 from . import _arrays, _reeb
-from ._arguments import described, is_number, is_path, path_bytes, printable, text_bytes, vector, warn_of_suffix, whole
+from ._arguments import (
+    described,
+    is_number,
+    is_path,
+    path_bytes,
+    printable,
+    size,
+    text_bytes,
+    vector,
+    warn_of_suffix,
+    whole,
+)
 from ._folders import temporary_folder
 from .errors import Error, SystemFailure, without_path
 from .graph import Graph, _open_result
@@ -158,7 +169,7 @@ def _run(held, names, outputs, options, report):
         results = _reeb.compute(held, names, [path_bytes(path) for path in outputs], options, report)
         paths = [os.path.abspath(path) for path in outputs]
         return [_open_result({**result, "output": path}, path, None) for result, path in zip(results, paths)]
-    with temporary_folder(_decoded(options.get("temp_dir"))) as folder:
+    with temporary_folder(os.fsdecode(options["temp_dir"]) if "temp_dir" in options else None) as folder:
         outputs = [path_bytes(os.path.join(folder, f"{i}.reeb")) for i in range(len(names))]
         try:
             # Temporary files are beside the output.
@@ -258,9 +269,7 @@ def _outputs(output, count, several):
 
 def _add_common(options, memory, threads, format, temp_dir):
     if memory is not None:
-        options["memory"] = (
-            _reeb.parse_size(text_bytes("memory", memory)) if isinstance(memory, str) else whole("memory", memory, 0)
-        )
+        options["memory"] = size("memory", memory)
     if threads is not None:
         options["threads"] = whole("threads", threads, 1, 1024)
     if format is not None:
@@ -273,10 +282,6 @@ def _add_common(options, memory, threads, format, temp_dir):
             raise SystemFailure(
                 "the folder for temporary files does not exist", "create it", path=os.fspath(temp_dir), kind="resource"
             )
-
-
-def _decoded(path):
-    return None if path is None else os.fsdecode(path)
 
 
 def _add_image(options, spacing, origin, nodata, grid, type_, skip):
