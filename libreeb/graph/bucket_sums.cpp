@@ -16,8 +16,8 @@ void BucketSum::add_large(const Point& position) {
   for (std::size_t k = 0; k < 3; ++k) {
     sum[k] += fixed_point(position[k]);
     clamped[k] = position[k] > -kMost ? std::min(position[k], kMost) : -kMost;
-    moment += clamped[k] * clamped[k];
   }
+  moment += square_of(clamped);
   raise_rim(near_rim_of(clamped));
 }
 
@@ -48,12 +48,13 @@ void BucketLists::start(int exponent) {
   free_.clear();
   free_count_ = 0;
   indexer_ = BucketIndexer(exponent);
-  first_current_ = 0;
 }
 
-BucketLists::Index BucketLists::add_current_bucket(List& list) {
-  link_last(list, new_bucket({.index = current_index_}));
-  return list.last;
+std::span<BucketSum> BucketLists::make(std::size_t count) {
+  sums_.grow_by(count);
+  links_.grow_by(count);
+  free_.grow_by(count);
+  return {sums_.data(), count};
 }
 
 BucketLists::Index BucketLists::new_bucket(const BucketSum& bucket) {
@@ -71,14 +72,6 @@ BucketLists::Index BucketLists::new_bucket(const BucketSum& bucket) {
   sums_[b] = bucket;
   links_[b] = {bucket.index, b};
   return b;
-}
-
-void BucketLists::add_to_buckets(std::span<const Index> buckets, std::span<const Point> positions) {
-  BucketSum* const sums = sums_.data();  // stays in a register: no write to a sum can change it
-  const bool at_origin = positions.empty();
-  const Point origin{};
-  for (std::size_t i = 0; i < buckets.size(); ++i)
-    if (buckets[i] != kNone) sums[buckets[i]].add(at_origin ? origin : positions[i]);
 }
 
 void BucketLists::link_last(List& list, Index b) {

@@ -26,6 +26,8 @@ __extension__ typedef __int128 Int128;
 // A position with a squared length below this has coordinates that fit in 64 bits, in units of 2^-44.
 inline constexpr double kSmallSquare = 0x1p36;
 
+inline double square_of(const Point& p) { return p[0] * p[0] + p[1] * p[1] + p[2] * p[2]; }
+
 // A coordinate in units of 2^-44, rounded towards zero. A NaN counts as the least coordinate.
 inline Int128 fixed_point(double x) {
   constexpr double kMaxCoordinate = 0x1p50;
@@ -59,11 +61,9 @@ struct BucketSum {
   // REQUIRES: there are fewer than 2^32 - 1 vertices. A sweep adds those of a chunk only; elsewhere check_room() tells.
   void add(const Point& position) {
     ++count;
-    const double x = position[0], y = position[1], z = position[2], square = x * x + y * y + z * z;
+    const double square = square_of(position);
     if (square < kSmallSquare) [[likely]] {
-      sum[0] += static_cast<std::int64_t>(x * 0x1p44);
-      sum[1] += static_cast<std::int64_t>(y * 0x1p44);
-      sum[2] += static_cast<std::int64_t>(z * 0x1p44);
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += static_cast<std::int64_t>(position[k] * 0x1p44);
       moment += square;
       raise_rim(near_rim_of(position));
     } else {
@@ -141,21 +141,14 @@ class BucketLists {
     visit_lists([&](List& list) { coarsen(list, levels); });
   }
 
-  // For the vertices of a sweep, ascending: all up to the next call are in buckets of this index.
-  // REQUIRES: the index is not less than before (it may be the same); from the first call of current_bucket() to
-  // add_to_buckets(), nothing else changes the lists.
-  void start_bucket(std::int64_t index) {
-    if (index == current_index_) return;
-    current_index_ = index;
-    first_current_ = static_cast<Index>(sums_.size());
+  // Makes the buckets 0, 1, ... (count - 1), for the vertices of a sweep. The caller sets their sums, and then links
+  // each to the end of a list. REQUIRES: no other bucket was made since start().
+  std::span<BucketSum> make(std::size_t count);
+  // REQUIRES: the list's last index < the bucket's.
+  void link(List& list, Index b) {
+    links_[b].index = sums_[b].index;
+    link_last(list, b);
   }
-  // The bucket of that index in the list. Vertices are added to it later.
-  Index current_bucket(List& list) {
-    return list.last + 1 > first_current_ ? list.last : add_current_bucket(list);  // kNone + 1 == 0
-  }
-  // Adds vertex i, at positions[i], to buckets[i] unless that is kNone. If there are no positions, all are the origin.
-  // REQUIRES: the buckets are from current_bucket().
-  void add_to_buckets(std::span<const Index> buckets, std::span<const Point> positions);
 
   // Like all that add up buckets, these throw what BucketSum::check_room() does.
   //
@@ -226,7 +219,6 @@ class BucketLists {
     Index next;          // in its list
   };
 
-  Index add_current_bucket(List& list);
   Index new_bucket(const BucketSum& bucket);
   void free_bucket(Index b) { free_[free_count_++] = b; }
   void link_last(List& list, Index b);
@@ -247,8 +239,6 @@ class BucketLists {
   GrowingArray<Index> free_;
   std::size_t free_count_ = 0;
   BucketIndexer indexer_;
-  std::int64_t current_index_ = 0;
-  Index first_current_ = 0;  // buckets from here on are of that index
 };
 
 // The buckets of an arc of a path, and the value at the far end of the arc.

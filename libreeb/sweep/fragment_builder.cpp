@@ -27,7 +27,7 @@ SweepArc FragmentBuilder::add_arc(SweepNode lower_node) {
 
 void FragmentBuilder::end_sweep(const SweptChunk& swept) {
   for (SweepGraph::Node& node : graph_.nodes) node.key = swept.key(node.vertex);
-  if (options_.bucket_exponent) add_positions(swept);
+  if (options_.bucket_exponent) embedding_.run(graph_, swept, arc_of_regular_, *options_.bucket_exponent);
 }
 
 void FragmentBuilder::start_fragment(const SweptChunk& swept, Fragment& fragment) {
@@ -109,23 +109,6 @@ void FragmentBuilder::mark_arcs_between_used(const SweptChunk& swept) {
   }
 }
 
-// Buckets are found in the order of the sweep, in which all vertices of one index follow each other. Positions are
-// added in the order of the chunk: there they follow each other in memory, and vertices next to each other on the mesh
-// are often of one bucket.
-void FragmentBuilder::add_positions(const SweptChunk& swept) {
-  const auto n = static_cast<std::uint32_t>(swept.order.size());
-  fill_with_room(bucket_of_, swept.chunk.vertex_count(), BucketLists::kNone);
-  for (std::uint32_t v = 0, end = n; v < n; v = end) {
-    const std::int64_t index = bucket_index(swept.value(VertexRank(v)), *options_.bucket_exponent);
-    end = swept.end_of_bucket(v, index, *options_.bucket_exponent);
-    graph_.buckets.start_bucket(index);
-    for (VertexRank r(v); r.value() < end; ++r)
-      if (const SweepArc arc = arc_of_regular_[r]; arc != SweepArc::none())
-        bucket_of_[swept.local(r).value()] = graph_.buckets.current_bucket(graph_.arc_buckets[arc]);
-  }
-  graph_.buckets.add_to_buckets(bucket_of_, swept.chunk.positions);
-}
-
 void FragmentBuilder::sort_steps(const SweptChunk& swept, const SharedEdges& shared) {
   steps_.clear();
   for (std::uint32_t e = 0; e < shared.size(); ++e) steps_.emplace_back(shared[e].place, e, false);
@@ -164,9 +147,10 @@ void FragmentBuilder::add_steps(const SharedEdges& shared, Fragment& fragment) c
 }
 
 std::size_t FragmentBuilder::memory_bytes() const {
-  return graph_.memory_bytes() + leaf_removal_.memory_bytes() + division_.memory_bytes() + 8 * steps_.capacity() +
+  return graph_.memory_bytes() + embedding_.memory_bytes() + leaf_removal_.memory_bytes() + division_.memory_bytes() +
+         8 * steps_.capacity() +
          4 * (node_of_.capacity() + arc_of_regular_.capacity() + settled_number_.capacity() + path_arcs_.capacity() +
-              degrees_.capacity() + arcs_xor_.capacity() + leaves_.capacity() + bucket_of_.capacity());
+              degrees_.capacity() + arcs_xor_.capacity() + leaves_.capacity());
 }
 
 }  // namespace reeb

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "libreeb/sweep/chunk_embedding.h"
 #include "libreeb/sweep/chunk_leaf_removal.h"
 #include "libreeb/sweep/fragment.h"
 #include "libreeb/sweep/fragment_division.h"
@@ -64,7 +65,6 @@ class FragmentBuilder {
     std::uint64_t bits_;
   };
 
-  void add_positions(const SweptChunk& swept);
   void start_fragment(const SweptChunk& swept, Fragment& fragment);
   void mark_arcs_between_used(const SweptChunk& swept);
   void add_followed(const SweptChunk& swept, Fragment& fragment);
@@ -74,11 +74,11 @@ class FragmentBuilder {
 
   SweepOptions options_;
   SweepGraph graph_;
+  ChunkEmbedding embedding_;
   ChunkLeafRemoval leaf_removal_;
   FragmentDivision division_;
   IdVector<VertexRank, SweepNode> node_of_;        // set for nodes only
   IdVector<VertexRank, SweepArc> arc_of_regular_;  // of other vertices, none()
-  std::vector<BucketLists::Index> bucket_of_;      // of regular vertices, by local vertex
   std::vector<PackedStep> steps_;                  // sorted
   std::vector<SweepArc> path_arcs_;                // as in the fragment
   std::vector<std::uint32_t> degrees_, arcs_xor_;  // of a tree, by node

@@ -182,9 +182,7 @@ class ManyLists {
         few_(random_.chance(50)),
         exponent_((few_ ? 4 : 0) - static_cast<int>(random_.below(few_ ? 3 : 6))) {
     pool_.start(exponent_);
-    for (std::int64_t index = -20; index < 20 && !few_; index += static_cast<std::int64_t>(random_.below(3)))
-      sweep(index);
-    add_noted();
+    if (!few_) sweep();
     for (std::uint64_t steps = random_.below(60); steps > 0; --steps) step();
   }
 
@@ -208,27 +206,20 @@ class ManyLists {
 
   double value() { return kMaxValue * (2 * random_.unit() - 1); }
 
-  void sweep(std::int64_t index) {
-    pool_.start_bucket(index);
-    for (std::uint64_t n = random_.below(6); n > 0; --n) {
-      const std::size_t i = random_.below(kLists);
-      BucketSum vertex{.index = index};
-      const Point position = random_point(random_);
-      vertex.add(position);
-      note(position, pool_.current_bucket(lists_[i]));
-      if (random_.chance(10)) note(random_point(random_), BucketLists::kNone);
-      if (random_.chance(5)) add_noted();
-      models_[i].add(vertex);
-    }
-  }
-  void note(const Point& position, BucketLists::Index bucket) {
-    positions_.push_back(position);
-    buckets_.push_back(bucket);
-  }
-  void add_noted() {
-    pool_.add_to_buckets(buckets_, positions_);
-    positions_.clear();
-    buckets_.clear();
+  // The buckets that a sweep makes: ascending by index, at most one of each index in a list.
+  void sweep() {
+    std::vector<BucketSum> made;
+    std::vector<std::size_t> list_of;
+    for (std::int64_t index = -20; index < 20; index += 1 + static_cast<std::int64_t>(random_.below(3)))
+      for (std::size_t i = 0; i < kLists; ++i) {
+        if (random_.chance(50)) continue;
+        made.push_back({.index = index});
+        list_of.push_back(i);
+        for (std::uint64_t n = 1 + random_.below(6); n > 0; --n) made.back().add(random_point(random_));
+        models_[i].add(made.back());
+      }
+    std::ranges::copy(made, pool_.make(made.size()).begin());
+    for (std::uint32_t b = 0; b < made.size(); ++b) pool_.link(lists_[list_of[b]], b);
   }
 
   void step() {
@@ -330,22 +321,7 @@ class ManyLists {
   BucketLists pool_;
   std::array<BucketLists::List, kLists> lists_{};
   std::array<Model, kLists> models_;
-  // Not added yet.
-  std::vector<Point> positions_;
-  std::vector<BucketLists::Index> buckets_;
 };
-
-TEST(BucketLists, TakeVerticesWithoutPositionsToBeAtTheOrigin) {
-  BucketLists pool;
-  pool.start(0);
-  pool.start_bucket(7);
-  BucketLists::List list;
-  const BucketLists::Index bucket = pool.current_bucket(list);
-  pool.add_to_buckets(std::array{bucket, BucketLists::kNone, bucket}, {});
-  BucketSum expected{.index = 7};
-  for (int i = 0; i < 2; ++i) expected.add(Point{});
-  pool.visit(list, [&](const BucketSum& sum) { EXPECT_TRUE(same(sum, expected)); });
-}
 
 TEST(BucketLists, HoldWhatMapsHold) {
   const std::uint64_t seed = base_seed(), cases = case_count(2000);
