@@ -53,6 +53,7 @@ void Glue::add_nodes(const Fragment& fragment) {
       first_link_[n] = kNone;
       if ((node.uses & kUsedLater) != 0) node_of_.find_or_insert(vertex, n);
     }
+    graph_.set_far(n, node.far_down, node.far_up);
     nodes_.push_back(n);
   }
 }

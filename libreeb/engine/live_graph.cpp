@@ -28,7 +28,7 @@ void LiveGraph::grow_arc_buckets() {
 
 LiveGraph::Index LiveGraph::add_node(const SweepKey& key, const Point& position, State state) {
   const Index n = graph_.nodes.take();
-  graph_.nodes[n] = {key, {kNone, kNone}, {0, 0}, 0, state, state != State::kSettled, false, true, false};
+  graph_.nodes[n] = {key, {kNone, kNone}, {0, 0}, 0, state, state != State::kSettled, false, true, false, false, false};
   if (track_positions_) {
     if (positions_.size() < graph_.nodes.size()) positions_.grow_by(1);
     positions_[n] = position;

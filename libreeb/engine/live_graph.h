@@ -55,6 +55,11 @@ class LiveGraph {
   void set_options(const SweepOptions& options);
 
   Index add_node(const SweepKey& key, const Point& position, State state);
+  // Notes that monotone paths lead far from the node, as Fragment::Node says.
+  void set_far(Index node, bool down, bool up) {
+    graph_.nodes[node].far_down |= down;
+    graph_.nodes[node].far_up |= up;
+  }
   Index add_arc(Index lo, Index hi);
   // To be called when a new arc has all the references of its fragment.
   void release(Index arc);

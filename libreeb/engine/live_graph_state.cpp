@@ -123,7 +123,8 @@ void LiveGraph::validate() const {
       above = &beads_.key(bead);
       ++on_chains;
     });
-    if (noise_.is_noise(graph_, a) && (is_leaf(lo) || is_leaf(hi)) && !(lo.near_noise && hi.near_noise))
+    if (noise_.is_noise(graph_, a) && (is_leaf(lo) || is_leaf(hi)) && lo.intact && hi.intact &&
+        !(lo.near_noise && hi.near_noise))
       fail("no node notices leaf", a);
     on_arcs += references;
     if (references != 0) {

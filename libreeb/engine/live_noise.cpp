@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "libreeb/sweep/sweep_options.h"
+
 namespace reeb {
 namespace {
 
@@ -14,16 +16,22 @@ bool has_one_arc(const PathGraph::Node& node) { return node.degree() == 1; }
 void NearNoise::set_threshold(PathGraph& graph, double below) {
   noise_below_ = below;
   if (noise_below_ <= noticed_below_) return;
-  noticed_below_ = 2 * noise_below_;
+  noticed_below_ = kNoiseAhead * noise_below_;
+  for (PathGraph::Index n = 0; n < graph.nodes.size(); ++n) graph.nodes[n].far_down = graph.nodes[n].far_up = false;
   for (PathGraph::Index a = 0; a < graph.arcs.size(); ++a)
     if (!graph.arcs[a].is_free()) notice(graph, a);
 }
 
+// An arc becomes that of a leaf when its end is contracted, since the end has lost all its arcs in that direction but
+// one. What is removed as noise reaches less far than what stays. So where a path leads far beyond the end, the arc
+// that this makes is long. Nor does an arc change at whose end another one was written out.
 void NearNoise::notice(PathGraph& graph, PathGraph::Index a) const {
   if (noticed_below_ == 0 || !graph.arcs[a].beads.empty()) return;
   PathGraph::Node &lo = graph.nodes[graph.arcs[a].lo()], &hi = graph.nodes[graph.arcs[a].hi()];
-  const double below = has_one_arc(lo) || has_one_arc(hi) ? noticed_below_ : noise_below_;
-  if (graph.length(a) < below) lo.near_noise = hi.near_noise = true;
+  if (!lo.intact || !hi.intact) return;
+  const bool of_leaf = has_one_arc(lo) || has_one_arc(hi);
+  if (!of_leaf && lo.far_down && hi.far_up) return;
+  if (graph.length(a) < (of_leaf ? noticed_below_ : noise_below_)) lo.near_noise = hi.near_noise = true;
 }
 
 void NearNoise::notice_at(PathGraph& graph, PathGraph::Index n) const {

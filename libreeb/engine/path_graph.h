@@ -38,7 +38,8 @@ struct PathGraph {
     bool intact : 1;  // no arc of it was written out
     bool queued : 1;  // to be examined by LiveGraph::tidy()
     bool used : 1;
-    bool near_noise : 1;  // it has or had an arc that is noise or might become noise
+    bool near_noise : 1;            // it has or had an arc that is noise or might become noise
+    bool far_down : 1, far_up : 1;  // as in a fragment that has the node
 
     // Its first arc in direction d, and the number of arcs there.
     Index first(Direction d) const { return first_at[opposite(d)]; }

@@ -34,6 +34,8 @@ struct Fragment {
     SweepKey key;
     std::uint8_t uses = 0;  // VertexUse; of a box: the shared faces that it is on
     bool settled : 1 = false;
+    // A monotone path leads from it down, or up, by kNoiseAhead times the threshold of noise or more.
+    bool far_down : 1 = false, far_up : 1 = false;
   };
   std::vector<Node> nodes;
   std::vector<Point> positions;  // one per node, or empty

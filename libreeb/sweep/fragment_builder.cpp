@@ -15,10 +15,7 @@ void FragmentBuilder::start(std::size_t vertices, const SweepOptions& options) {
   node_of_.resize(vertices);
 }
 
-SweepNode FragmentBuilder::add_node(VertexRank v) {
-  return node_of_[v] =
-             graph_.nodes.add({{}, v, SweepArc::none(), false, {}, {}, false, false, false, FragmentNode::none()});
-}
+SweepNode FragmentBuilder::add_node(VertexRank v) { return node_of_[v] = graph_.nodes.add({.vertex = v}); }
 
 SweepArc FragmentBuilder::add_arc(SweepNode lower_node) {
   if (options_.bucket_exponent) graph_.arc_buckets.add({});

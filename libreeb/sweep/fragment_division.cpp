@@ -1,20 +1,47 @@
 #include "libreeb/sweep/fragment_division.h"
 
+#include <algorithm>
+
 #include "libreeb/sweep/chunk.h"
 
 namespace reeb {
 namespace {
 
+// Sets how far monotone paths from each node lead. Arcs below an arc come before it.
+void find_reaches(const SweepGraph& graph, IdVector<SweepNode, ValueRange>& reaches) {
+  reaches.resize(graph.nodes.size());
+  for (SweepNode n; n < graph.nodes.end_id(); ++n) {
+    const double value = graph.nodes[n].key.value;
+    reaches[n] = {value, value};
+  }
+  for (SweepArc a; a < graph.arcs.end_id(); ++a) {
+    const SweepGraph::Arc& arc = graph.arcs[a];
+    if (!arc.gone()) reaches[arc.hi].min = std::min(reaches[arc.hi].min, reaches[arc.lo].min);
+  }
+  for (std::uint32_t a = graph.arcs.end_id().value(); a-- > 0;) {
+    const SweepGraph::Arc& arc = graph.arcs[SweepArc(a)];
+    if (!arc.gone()) reaches[arc.lo].max = std::max(reaches[arc.lo].max, reaches[arc.hi].max);
+  }
+}
+
+// Sets Node::near_noise at the ends of the arcs that NearNoise::notice() would notice, too.
+void find_near_noise(SweepGraph& graph, double noise_below, const IdVector<SweepNode, ValueRange>& reaches) {
+  for (const SweepGraph::Arc& arc : graph.arcs) {
+    if (arc.gone()) continue;
+    SweepGraph::Node &lo = graph.nodes[arc.lo], &hi = graph.nodes[arc.hi];
+    const double low = lo.key.value, high = hi.key.value;
+    if (high - low >= noise_below) continue;
+    if (high - reaches[arc.lo].min < noise_below || reaches[arc.hi].max - low < noise_below)
+      lo.near_noise = hi.near_noise = true;
+  }
+}
+
 // Finds which nodes can still become (1, 1) nodes, or get further arcs. As in LiveGraph, a node that no other chunk
 // uses cannot change if one of its sides has no arc, or has two arcs of which one is on no path. A node near noise can
 // change while any of its arcs is on a path.
-void find_changing_nodes(SweepGraph& graph, const SweptChunk& swept, double noise_below) {
+void find_changing_nodes(SweepGraph& graph, const SweptChunk& swept) {
   using Side = SweepGraph::Side;
   auto& nodes = graph.nodes;
-  for (SweepGraph::Node& node : nodes) {
-    node.up = node.down = {};
-    node.near_noise = false;
-  }
   const auto add = [](Side& side, bool referenced) {
     side.several = side.any;
     side.any = true;
@@ -24,7 +51,6 @@ void find_changing_nodes(SweepGraph& graph, const SweptChunk& swept, double nois
     if (arc.gone()) continue;
     add(nodes[arc.lo].up, arc.referenced);
     add(nodes[arc.hi].down, arc.referenced);
-    if (noise_below > 0 && graph.length(arc) < noise_below) nodes[arc.lo].near_noise = nodes[arc.hi].near_noise = true;
   }
   const auto lasts = [](const Side& side) { return !side.any || (side.several && side.loose); };
   for (SweepGraph::Node& node : nodes) {
@@ -47,7 +73,11 @@ void add_settled_buckets(SweepGraph& graph, SweepArc arc, Fragment& fragment) {
 
 void FragmentDivision::run(SweepGraph& graph, const SweptChunk& swept, const SweepOptions& options,
                            Fragment& fragment) {
-  find_changing_nodes(graph, swept, options.noise_below);
+  if (options.noise_below > 0) {
+    find_reaches(graph, reaches_);
+    find_near_noise(graph, options.noise_below, reaches_);
+  }
+  find_changing_nodes(graph, swept);
   divide_arcs(graph, options.bucket_exponent.has_value(), fragment);
   add_nodes(graph, swept, fragment);
   add_arcs(graph, fragment);
@@ -92,6 +122,11 @@ void FragmentDivision::add_nodes(SweepGraph& graph, const SweptChunk& swept, Fra
     SweepGraph::Node& node = graph.nodes[n];
     node.open = FragmentNode(static_cast<std::uint32_t>(fragment.nodes.size()));
     fragment.nodes.push_back({node.key, swept.uses(node.vertex), node.lost_arcs});
+    if (fragment.options.noise_below > 0) {
+      const double far = kNoiseAhead * fragment.options.noise_below;
+      fragment.nodes.back().far_down = node.key.value - reaches_[n].min >= far;
+      fragment.nodes.back().far_up = reaches_[n].max - node.key.value >= far;
+    }
     if (!swept.chunk.positions.empty()) fragment.positions.push_back(swept.position(node.vertex));
   }
 }

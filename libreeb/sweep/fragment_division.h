@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "libreeb/base/value_range.h"
 #include "libreeb/sweep/fragment.h"
 #include "libreeb/sweep/sweep_graph.h"
 #include "libreeb/sweep/sweep_options.h"
@@ -18,7 +19,8 @@ class FragmentDivision {
   // arcs of the graph. REQUIRES: `referenced` is set for the arcs on paths.
   void run(SweepGraph& graph, const SweptChunk& swept, const SweepOptions& options, Fragment& fragment);
   std::size_t memory_bytes() const {
-    return 4 * (node_at_.capacity() + open_arcs_.capacity() + arc_at_.capacity() + arcs_from_.capacity());
+    return reaches_.capacity() * sizeof(ValueRange) +
+           4 * (node_at_.capacity() + open_arcs_.capacity() + arc_at_.capacity() + arcs_from_.capacity());
   }
 
  private:
@@ -27,6 +29,7 @@ class FragmentDivision {
   void add_arcs(SweepGraph& graph, Fragment& fragment);
   void add_buckets(SweepGraph& graph, Fragment& fragment);
 
+  IdVector<SweepNode, ValueRange> reaches_;  // if there can be noise
   std::vector<SweepArc> open_arcs_;
   IdVector<LocalVertex, SweepNode> node_at_;  // none() if it is no open node
   IdVector<FragmentArc, SweepArc> arc_at_;

@@ -24,15 +24,15 @@ struct SweepGraph {
     bool any = false, several = false, loose = false, tied = false;
   };
   struct Node {
-    SweepKey key;          // set when the sweep is over
-    VertexRank vertex;     // its vertex
-    SweepArc main_branch;  // the arc up that a path takes unless another one is noted for it
-    bool gone;             // removed as noise, or contracted
-    Side up, down;
-    bool near_noise;    // it has an arc that is short enough to be noise
-    bool can_change;    // not certain to be a node of the final graph
-    bool lost_arcs;     // some of its arcs are settled; of boxes, some may have been before the sweep
-    FragmentNode open;  // its id in the fragment, or none()
+    SweepKey key{};                            // set when the sweep is over
+    VertexRank vertex;                         // its vertex
+    SweepArc main_branch = SweepArc::none();   // the arc up that a path takes unless another one is noted for it
+    FragmentNode open = FragmentNode::none();  // its id in the fragment, or none()
+    bool gone = false;                         // removed as noise, or contracted
+    Side up{}, down{};
+    bool near_noise = false;  // it has an arc that might become a leaf's, and noise
+    bool can_change = false;  // not certain to be a node of the final graph
+    bool lost_arcs = false;   // some of its arcs are settled; of boxes, some may have been before the sweep
   };
   struct Arc {
     SweepNode lo, hi;  // lo == none(): gone

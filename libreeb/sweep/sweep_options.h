@@ -5,6 +5,10 @@
 
 namespace reeb {
 
+// The threshold of noise often rises with the range of the function. What is found out for it holds up to this
+// multiple.
+inline constexpr double kNoiseAhead = 2;
+
 // The first two options may not decrease along a stream: the glue uses those of the latest fragment.
 struct SweepOptions {
   // Leaves of less persistence are removed as soon as they are certain to be noise (docs/SEMANTICS.md, Noise removal).

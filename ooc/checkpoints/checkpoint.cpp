@@ -15,7 +15,7 @@ namespace reeb::ooc {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'R', 'E', 'E', 'B', 'C', 'K', 'P', '\n'};
-constexpr std::uint64_t kVersion = 20;
+constexpr std::uint64_t kVersion = 21;
 constexpr std::size_t kBufferBytes = 64 << 10;
 
 struct Header {

@@ -113,5 +113,23 @@ TEST_F(OnlineNoise, AShareOfTheRangeSoFarLeadsToTheSameEnd) {
   EXPECT_GT(online_, all_ / 4 * 3) << "much is left for the last pass";
 }
 
+// Arcs of a random function that are short because nodes are many, not because they lead to a leaf nearby, keep no node
+// waiting.
+TEST_F(OnlineNoise, ARandomFunctionKeepsHardlyMoreArcsForIt) {
+  const Mesh mesh = make_mesh(io::MeshKind::kScan, io::MeshOrder::kPatches, Function::kRandom);
+  const auto most_arcs = [&](double share) {
+    KeepingSink sink;
+    std::size_t most = 0;
+    stream(
+        mesh, 2000, sink,
+        [&](double least, double highest) { return SweepOptions{.noise_below = share * (highest - least)}; },
+        [&](Glue& glue) { most = std::max(most, glue.graph().arc_count()); });
+    return most;
+  };
+  const std::size_t without = most_arcs(0), with = most_arcs(0.005);
+  std::cout << "at most " << without << " arcs, " << with << " with noise removal\n";
+  EXPECT_LT(with, without + without / 20);
+}
+
 }  // namespace
 }  // namespace reeb::test
