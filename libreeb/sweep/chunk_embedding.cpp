@@ -17,9 +17,8 @@ void ChunkEmbedding::run(SweepGraph& graph, const SweptChunk& swept, const IdVec
     }
 }
 
-// In the order of the sweep, all vertices of one index follow each other. Whether a vertex has an arc, and whether it
-// is the first of a bucket, cannot be predicted, so neither takes a branch. Vertices without an arc have an arc of
-// their own, which always has a last bucket.
+// In the order of the sweep, all vertices of one index follow each other. Whether a vertex has an arc cannot be
+// predicted, so it takes no branch: vertices without one have an arc of their own, which always has a last bucket.
 void ChunkEmbedding::find_buckets(const SweptChunk& swept, const IdVector<VertexRank, SweepArc>& arcs,
                                   std::size_t arc_count, int exponent) {
   const auto n = static_cast<std::uint32_t>(arcs.size()), no_arc = static_cast<std::uint32_t>(arc_count);
@@ -43,10 +42,10 @@ void ChunkEmbedding::find_buckets(const SweptChunk& swept, const IdVector<Vertex
     if (slabs_.empty() || slabs_.back().index != index) first = count;
     for (std::uint32_t r = v; r < end; ++r) {
       std::uint32_t& last = last_of[std::min(arc[r].value(), no_arc)];
-      const bool is_new = last <= first;
-      arc_of[count] = arc[r];
-      count += is_new ? 1 : 0;
-      last = is_new ? count : last;
+      if (last <= first) {
+        arc_of[count] = arc[r];
+        last = ++count;
+      }
       bucket_of[order[r]] = last - 1;
     }
     if (count == first) continue;
