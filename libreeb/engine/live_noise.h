@@ -20,7 +20,7 @@ class NearNoise {
     return graph.length(arc) < noise_below_ && graph.arcs[arc].beads.empty();
   }
   // To be called for an arc that is new, has another end, or is now the only one at one of its ends. An arc that leads
-  // to no leaf yet might do so later, when what is beyond it was removed.
+  // to no leaf yet might do so later, when what is beyond it was removed; not if paths lead far beyond both ends.
   void notice(PathGraph& graph, PathGraph::Index arc) const;
   // To be called for a node that has lost an arc.
   void notice_at(PathGraph& graph, PathGraph::Index node) const;

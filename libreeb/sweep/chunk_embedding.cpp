@@ -60,6 +60,7 @@ void ChunkEmbedding::find_buckets(const SweptChunk& swept, const IdVector<Vertex
 // are often of one bucket.
 void ChunkEmbedding::add_positions(std::span<BucketSum> sums, std::span<const Point> positions) {
   constexpr std::size_t kVerticesPerWideSum = 8;  // with fewer, wide sums do not pay
+  if (sums.empty()) return;
   std::size_t first = 0;
   if (positions.size() >= kVerticesPerWideSum * sums.size() && can_add_wide()) {
     fill_with_room(wide_sums_, sums.size() + 1, WideSum());

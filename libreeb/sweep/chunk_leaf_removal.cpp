@@ -105,7 +105,7 @@ void ChunkLeafRemoval::move_buckets(SweepNode leaf, SweepArc arc, Direction d) {
     path_.push_back({&graph_->arc_buckets[step], value(node)});
   }
   BucketLists::List& moved = graph_->arc_buckets[arc];
-  // Mostly so: then just the leaf is moved.
+  // Most leaves have no vertices on their arc.
   if (moved.empty()) return graph_->buckets.add_vertex(*path_.back().list, value(leaf), position(leaf));
   graph_->buckets.add_vertex(moved, value(leaf), position(leaf));
   lay_on_path(graph_->buckets, moved, d, saddle_value, value(leaf), path_);
