@@ -24,7 +24,7 @@ void NearNoise::set_threshold(PathGraph& graph, double below) {
 
 // An arc becomes that of a leaf when its end is contracted, since the end has lost all its arcs in that direction but
 // one. What is removed as noise reaches less far than what stays. So where a path leads far beyond the end, the arc
-// that this makes is long. Nor does an arc change at whose end another one was written out.
+// that this makes is long. Nor is an arc ever removed if another one at its ends was written out.
 void NearNoise::notice(PathGraph& graph, PathGraph::Index a) const {
   if (noticed_below_ == 0 || !graph.arcs[a].beads.empty()) return;
   PathGraph::Node &lo = graph.nodes[graph.arcs[a].lo()], &hi = graph.nodes[graph.arcs[a].hi()];

@@ -30,7 +30,7 @@ class NearNoise {
 
  private:
   double noise_below_ = 0;
-  double noticed_below_ = 0;  // at both ends of a leaf's arc that is shorter, near_noise is set
+  double noticed_below_ = 0;  // near_noise is set at the ends of a leaf's arc that is shorter, if both are intact
 };
 
 // An extremum with one arc, which nothing can change any more except a contraction of its other end.

@@ -23,8 +23,8 @@ void ChunkEmbedding::find_buckets(const SweptChunk& swept, const IdVector<Vertex
                                   std::size_t arc_count, int exponent) {
   const auto n = static_cast<std::uint32_t>(arcs.size()), no_arc = static_cast<std::uint32_t>(arc_count);
   slabs_.clear();
-  if (arc_of_.capacity() <= n) clear_with_room(arc_of_, n + std::size_t{1});
-  arc_of_.resize(n + std::size_t{1});
+  if (arc_of_.capacity() < n) clear_with_room(arc_of_, n);
+  arc_of_.resize(n);
   if (bucket_of_.capacity() < n) clear_with_room(bucket_of_, n);
   bucket_of_.resize(n);
   fill_with_room(last_of_, arc_count + 1, 0u);

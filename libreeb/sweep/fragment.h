@@ -34,7 +34,8 @@ struct Fragment {
     SweepKey key;
     std::uint8_t uses = 0;  // VertexUse; of a box: the shared faces that it is on
     bool settled : 1 = false;
-    // A monotone path leads from it down, or up, by kNoiseAhead times the threshold of noise or more.
+    // Set only if a monotone path leads from it down, or up, by kNoiseAhead times the threshold of noise or more. Not
+    // in copies of a live graph, whose threshold may have risen since.
     bool far_down : 1 = false, far_up : 1 = false;
   };
   std::vector<Node> nodes;

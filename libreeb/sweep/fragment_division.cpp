@@ -24,7 +24,7 @@ void find_reaches(const SweepGraph& graph, IdVector<SweepNode, ValueRange>& reac
   }
 }
 
-// Sets Node::near_noise at the ends of the arcs that NearNoise::notice() would notice, too.
+// Sets Node::near_noise, as NearNoise::notice() does. What settles here needs no threshold but the present one.
 void find_near_noise(SweepGraph& graph, double noise_below, const IdVector<SweepNode, ValueRange>& reaches) {
   for (const SweepGraph::Arc& arc : graph.arcs) {
     if (arc.gone()) continue;

@@ -1,5 +1,5 @@
-// Sums of positions that a processor with AVX2 adds up four numbers at a time: twice as fast as BucketSum::add(), and
-// with the same result to the last bit.
+// Sums of positions that a processor with AVX2 adds up four numbers at a time: faster than BucketSum::add(), and with
+// the same result to the last bit.
 //
 // A coordinate in units of 2^-44, rounded towards zero, is a whole number that a double can hold. It is divided into
 // a multiple of 2^35 and a rest of at most 2^34. Coordinates are below 2^24, so of 2^19 vertices doubles hold the sums
