@@ -17,7 +17,7 @@ void BucketSum::add_large(const Point& position) {
     sum[k] += fixed_point(position[k]);
     clamped[k] = position[k] > -kMost ? std::min(position[k], kMost) : -kMost;
   }
-  moment += square_of(clamped);
+  moment += dot(clamped, clamped);
   raise_rim(near_rim_of(clamped));
 }
 

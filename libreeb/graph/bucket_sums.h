@@ -14,6 +14,7 @@
 
 #include "libreeb/base/prefetch.h"
 #include "libreeb/base/state_stream.h"
+#include "libreeb/base/vector3.h"
 #include "libreeb/containers/growing_array.h"
 #include "libreeb/graph/bucket.h"
 #include "libreeb/graph/direction.h"
@@ -25,8 +26,6 @@ __extension__ typedef __int128 Int128;
 
 // A position with a squared length below this has coordinates that fit in 64 bits, in units of 2^-44.
 inline constexpr double kSmallSquare = 0x1p36;
-
-inline double square_of(const Point& p) { return p[0] * p[0] + p[1] * p[1] + p[2] * p[2]; }
 
 // A coordinate in units of 2^-44, rounded towards zero. A NaN counts as the least coordinate.
 inline Int128 fixed_point(double x) {
@@ -56,12 +55,14 @@ struct BucketSum {
   double moment = 0;
   std::array<Int128, 3> sum{};
 
+  friend bool operator==(const BucketSum&, const BucketSum&) = default;
+
   static constexpr RimPoint kNoRim = {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF};
 
   // REQUIRES: there are fewer than 2^32 - 1 vertices. A sweep adds those of a chunk only; elsewhere check_room() tells.
   void add(const Point& position) {
     ++count;
-    const double square = square_of(position);
+    const double square = dot(position, position);
     if (square < kSmallSquare) [[likely]] {
       for (std::size_t k = 0; k < 3; ++k) sum[k] += static_cast<std::int64_t>(position[k] * 0x1p44);
       moment += square;

@@ -38,7 +38,7 @@ void ChunkEmbedding::find_buckets(const SweptChunk& swept, const IdVector<Vertex
   for (std::uint32_t v = 0, end = n; v < n; v = end) {
     const std::int64_t index = bucket_index(swept.value(VertexRank(v)), exponent);
     end = swept.end_of_bucket(v, index, exponent);
-    // An index comes again if its end is no double.
+    // An index comes again if its end cannot be a double.
     if (slabs_.empty() || slabs_.back().index != index) first = count;
     for (std::uint32_t r = v; r < end; ++r) {
       std::uint32_t& last = last_of[std::min(arc[r].value(), no_arc)];

@@ -24,7 +24,7 @@ void find_reaches(const SweepGraph& graph, IdVector<SweepNode, ValueRange>& reac
   }
 }
 
-// Sets Node::near_noise, as NearNoise::notice() does. What settles here needs no threshold but the present one.
+// Sets Node::near_noise. NearNoise::notice() does the same for the live graph, where the threshold can still rise.
 void find_near_noise(SweepGraph& graph, double noise_below, const IdVector<SweepNode, ValueRange>& reaches) {
   for (const SweepGraph::Arc& arc : graph.arcs) {
     if (arc.gone()) continue;

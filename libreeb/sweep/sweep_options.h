@@ -5,8 +5,8 @@
 
 namespace reeb {
 
-// The threshold of noise often rises with the range of the function. What is found out for it holds up to this
-// multiple.
+// The threshold of noise often rises with the range of the function. What is noted for a threshold holds up to this
+// multiple of it.
 inline constexpr double kNoiseAhead = 2;
 
 // The first two options may not decrease along a stream: the glue uses those of the latest fragment.

@@ -18,9 +18,7 @@ BucketSum WideSum::to_bucket() const {
   bucket.count = static_cast<std::uint32_t>((high[3] + low[3]) * kUnit);
   bucket.rim = {rim[0], rim[1], rim[2]};
   bucket.moment = moment;
-  for (std::size_t k = 0; k < 3; ++k)
-    bucket.sum[k] = static_cast<Int128>(static_cast<std::int64_t>(high[k] / kHighUnit)) * (std::int64_t{1} << 35) +
-                    static_cast<std::int64_t>(low[k]);
+  for (std::size_t k = 0; k < 3; ++k) bucket.sum[k] = cut_off(high[k]) + cut_off(low[k]);
   return bucket;
 }
 
@@ -29,8 +27,8 @@ BucketSum WideSum::to_bucket() const {
 bool can_add_wide() noexcept { return __builtin_cpu_supports("avx2") != 0; }
 
 // A vector of four doubles is read at each position: the fourth is of the next position, and is replaced by 1, which
-// counts the vertex. So the last position cannot be read. That a vertex is in no bucket cannot be predicted. So it is
-// added, too, to a sum that is not used.
+// counts the vertex. So the last position cannot be read. Whether a vertex is in a bucket cannot be predicted, so it
+// takes no branch: one that is in none is added to a sum that is not used.
 [[gnu::target("avx2")]] std::size_t add_wide(std::span<WideSum> all_sums, std::span<const std::uint32_t> buckets,
                                              std::span<const Point> positions) {
   constexpr std::size_t kMostVertices = std::size_t{1} << 19;

@@ -18,10 +18,6 @@
 namespace reeb::test {
 namespace {
 
-bool same(const BucketSum& a, const BucketSum& b) {
-  return a.index == b.index && a.count == b.count && a.rim == b.rim && a.moment == b.moment && a.sum == b.sum;
-}
-
 // Few arcs and indices: many vertices in each bucket, which takes wide sums. Many: most have one.
 void compare(ChunkEmbedding& embedding, Random& random) {
   const std::size_t vertices = random.below(400), arcs = random.chance(50) ? random.below(4) : random.below(200);
@@ -69,7 +65,7 @@ void compare(ChunkEmbedding& embedding, Random& random) {
     graph.buckets.visit(graph.arc_buckets[a], [&](const BucketSum& bucket) {
       const auto at = expected.find({a.value(), bucket.index});
       ASSERT_NE(at, expected.end());
-      EXPECT_TRUE(same(bucket, at->second)) << "arc " << a.value() << ", bucket " << bucket.index;
+      EXPECT_TRUE(bucket == at->second) << "arc " << a.value() << ", bucket " << bucket.index;
       EXPECT_LT(last, bucket.index);
       last = bucket.index;
       ++count;

@@ -15,10 +15,6 @@
 namespace reeb::test {
 namespace {
 
-bool same(const BucketSum& a, const BucketSum& b) {
-  return a.count == b.count && a.rim == b.rim && a.moment == b.moment && a.sum == b.sum;
-}
-
 class WideSums : public testing::Test {
  protected:
   void SetUp() override {
@@ -33,7 +29,7 @@ class WideSums : public testing::Test {
     std::vector<BucketSum> expected(count);
     for (std::size_t i = 0; i < added; ++i)
       if (buckets[i] < count) expected[buckets[i]].add(points[i]);
-    for (std::size_t b = 0; b < count; ++b) EXPECT_TRUE(same(wide[b].to_bucket(), expected[b])) << "bucket " << b;
+    for (std::size_t b = 0; b < count; ++b) EXPECT_TRUE(wide[b].to_bucket() == expected[b]) << "bucket " << b;
     return added;
   }
   // The same with a single bucket, and a point after them, which it leaves out.

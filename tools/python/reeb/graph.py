@@ -393,8 +393,8 @@ class Graph:
         else:
             nodes, arcs = len(self.nodes), len(self.arcs)
         level = f", level of threshold {self.threshold:g}" if self._version else ""
-        size = f"{nodes} node{'s' * (nodes != 1)}, {arcs} arc{'s' * (arcs != 1)}"
-        return f"<reeb.Graph of {printable(self.function) or 'a stream'}: {size}{level}>"
+        counts = f"{nodes} node{'s' * (nodes != 1)}, {arcs} arc{'s' * (arcs != 1)}"
+        return f"<reeb.Graph of {printable(self.function) or 'a stream'}: {counts}{level}>"
 
     def _repr_html_(self):
         from html import escape
