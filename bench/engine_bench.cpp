@@ -118,11 +118,14 @@ struct CountingSink : GraphSink {
   void add_nodes(std::span<const SettledNode> more) override { nodes += more.size(); }
   void add_arcs(const SettledArcs& more) override {
     arcs += more.arcs.size();
-    for (const Bucket& bucket : more.buckets) vertices += bucket.count;
+    buckets.clear();
+    for (std::size_t i = 0; i < more.lists.ends.size(); ++i) more.lists.unpack(i, buckets);
+    for (const Bucket& bucket : buckets) vertices += bucket.count;
     for (const ArcKeys& arc : more.arcs) check ^= mix(arc.lo.vertex.value() ^ mix(arc.hi.vertex.value()));
   }
   std::uint64_t nodes = 0, arcs = 0, check = 0;
   std::uint64_t vertices = 0;  // in buckets
+  std::vector<Bucket> buckets;
 };
 
 struct Result {

@@ -23,8 +23,8 @@ void Glue::add(const Fragment& fragment, const std::function<void(std::size_t)>&
   removed_in_fragments_ += fragment.removed_pairs;
   if (!fragment.settled_nodes.empty()) sink_->add_nodes(fragment.settled_nodes);
   if (!fragment.settled_arcs.empty())
-    sink_->add_arcs({fragment.settled_arcs, fragment.settled_bucket_counts, fragment.settled_buckets,
-                     fragment.options.bucket_exponent.value_or(0)});
+    sink_->add_arcs(
+        {fragment.settled_arcs, fragment.settled_lists.view(), fragment.options.bucket_exponent.value_or(0)});
   add_nodes(fragment);
   add_arcs(fragment);
   if (log_ != nullptr) place_regular(fragment);

@@ -403,9 +403,7 @@ void LiveGraph::write_out(Index a) {
   if (embeds_) buckets = std::exchange(arc_buckets_[a], {});
   const auto add_arc_from = [&](const SweepKey& below) {
     settled_.add_arc({below, std::exchange(above, below)});
-    if (!embeds_) return;
-    settled_.add_buckets(
-        [&](const auto& add) { buckets_.drain(buckets, [&](const BucketSum& bucket) { add(bucket.mean()); }); });
+    if (embeds_) settled_.add_buckets(buckets_, buckets);
   };
   beads_.visit(std::exchange(graph_.arcs[a].beads, {}), [&](Index bead) {
     add_arc_from(beads_.key(bead));

@@ -228,11 +228,6 @@ void GraphFrame::clear() {
   buckets.clear();
 }
 
-void GraphFrame::add_buckets(std::span<const Bucket> own) {
-  bucket_counts.push_back(static_cast<std::uint32_t>(own.size()));
-  buckets.insert(buckets.end(), own.begin(), own.end());
-}
-
 void GraphFrame::add_buckets(std::span<const std::byte> packed) {
   bucket_counts.push_back(static_cast<std::uint32_t>(packed_count(packed)));
   unpack_buckets(packed, buckets);

@@ -38,8 +38,7 @@ struct GraphFrame {
   std::vector<std::uint32_t> bucket_counts;  // one entry per arc, if there is an embedding
   std::vector<Bucket> buckets;               // of all arcs, one arc after the other
   void clear();
-  // The buckets of the next arc; packed as in packed_buckets.h.
-  void add_buckets(std::span<const Bucket> own);
+  // The buckets of the next arc, packed as in packed_buckets.h.
   void add_buckets(std::span<const std::byte> packed);
 };
 

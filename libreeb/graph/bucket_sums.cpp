@@ -248,6 +248,13 @@ void lay_on_path(BucketLists& lists, BucketLists::List& from, Direction d, doubl
   lists.merge(*path.back().list, from);
 }
 
+void BucketLists::drain_means(List& list, ArcLists& lists) {
+  if (list.empty()) return lists.add_packed({});
+  std::size_t count = 1;
+  for (Index b = links_[list.last].next; b != list.last; b = links_[b].next) ++count;
+  lists.add(count, [&](const auto& add) { drain(list, [&](const BucketSum& sum) { add(sum.mean()); }); });
+}
+
 void BucketLists::save(StateWriter& out) const {
   sums_.save(out);
   links_.save(out);

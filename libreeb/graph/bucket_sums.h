@@ -18,6 +18,7 @@
 #include "libreeb/containers/growing_array.h"
 #include "libreeb/graph/bucket.h"
 #include "libreeb/graph/direction.h"
+#include "libreeb/graph/packed_buckets.h"
 #include "libreeb/graph/settled_node.h"
 
 namespace reeb {
@@ -185,7 +186,10 @@ class BucketLists {
     list.last = kNone;
   }
 
-  // The same, and the list stays.
+  // The same for the list of the next arc in `lists`, which gets the means.
+  void drain_means(List& list, ArcLists& lists);
+
+  // As drain(), and the list stays.
   template <class Visit>
   void visit(const List& list, const Visit& visit) const {
     if (list.empty()) return;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <stdexcept>
 
 #include "libreeb/base/byte_coding.h"
 
@@ -82,6 +83,10 @@ bool unpack_buckets(std::span<const std::byte> packed, std::vector<Bucket>& buck
   // In place, since copying a bucket whose parts were just stored waits for these stores.
   for (std::uint64_t i = 0; i < count; ++i) index = get_bucket(in, index, buckets.emplace_back());
   return in.done();
+}
+
+void ArcListsView::unpack(std::size_t arc, std::vector<Bucket>& buckets) const {
+  if (!unpack_buckets(of(arc), buckets)) throw std::logic_error("ArcListsView: a list cannot be read");
 }
 
 std::uint64_t packed_count(std::span<const std::byte> packed) {

@@ -57,8 +57,7 @@ bool has_sound_buckets(const Fragment& tree) {
 void forget_settled(Fragment& fragment) {
   std::vector<SettledNode>().swap(fragment.settled_nodes);
   std::vector<ArcKeys>().swap(fragment.settled_arcs);
-  std::vector<std::uint32_t>().swap(fragment.settled_bucket_counts);
-  std::vector<Bucket>().swap(fragment.settled_buckets);
+  fragment.settled_lists = {};
 }
 
 }  // namespace
@@ -109,8 +108,8 @@ void BoxGlue::add(const Fragment& fragment) {
 void BoxGlue::pass_on_settled(const Fragment& fragment) {
   if (!fragment.settled_nodes.empty()) sink_->add_nodes(fragment.settled_nodes);
   if (!fragment.settled_arcs.empty())
-    sink_->add_arcs({fragment.settled_arcs, fragment.settled_bucket_counts, fragment.settled_buckets,
-                     fragment.options.bucket_exponent.value_or(0)});
+    sink_->add_arcs(
+        {fragment.settled_arcs, fragment.settled_lists.view(), fragment.options.bucket_exponent.value_or(0)});
 }
 
 // With the vertices that are passed. One that is a node in no box is regular: it is on the arc that passes it in the

@@ -1,21 +1,18 @@
 // Port: where settled nodes and arcs go (docs/ARCHITECTURE.md, A triangle's way through).
 #pragma once
 
-#include <cstdint>
 #include <span>
 
-#include "libreeb/graph/bucket.h"
+#include "libreeb/graph/arc_buckets.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/graph/settled_node.h"
 
 namespace reeb {
 
-// Arcs of the final graph, with their embedding if there is one: arc i owns the next
-// bucket_counts[i] of `buckets`, ascending.
+// Arcs of the final graph, with their embedding if there is one.
 struct SettledArcs {
   std::span<const ArcKeys> arcs;
-  std::span<const std::uint32_t> bucket_counts = {};  // one per arc; empty: no embedding
-  std::span<const Bucket> buckets = {};
+  ArcListsView lists = {};
   int bucket_exponent = 0;  // of all these buckets; a later call may have a larger one
 };
 

@@ -6,9 +6,9 @@ std::size_t Fragment::memory_bytes() const {
   return nodes.capacity() * sizeof(Node) + positions.capacity() * sizeof(Point) + arcs.capacity() * sizeof(Arc) +
          (edges.capacity() + closed_edges.capacity()) * sizeof(SharedEdge) +
          4 * (path_begin.capacity() + path_arcs.capacity()) + steps.capacity() * sizeof(Step) +
-         passed.capacity() * sizeof(Passed) + 4 * (bucket_begin.capacity() + settled_bucket_counts.capacity()) +
-         buckets.capacity() * sizeof(BucketSum) + settled_buckets.capacity() * sizeof(Bucket) +
-         settled_nodes.capacity() * sizeof(SettledNode) + settled_arcs.capacity() * sizeof(ArcKeys) +
+         passed.capacity() * sizeof(Passed) + 4 * bucket_begin.capacity() + buckets.capacity() * sizeof(BucketSum) +
+         settled_lists.memory_bytes() + settled_nodes.capacity() * sizeof(SettledNode) +
+         settled_arcs.capacity() * sizeof(ArcKeys) +
          (on_open_arcs.capacity() + on_settled_arcs.capacity()) * sizeof(Regular);
 }
 

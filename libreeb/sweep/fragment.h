@@ -12,8 +12,8 @@
 
 #include "libreeb/base/ids.h"
 #include "libreeb/base/sweep_key.h"
-#include "libreeb/graph/bucket.h"
 #include "libreeb/graph/bucket_sums.h"
+#include "libreeb/graph/packed_buckets.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/graph/settled_node.h"
 #include "libreeb/sweep/chunk.h"
@@ -82,8 +82,7 @@ struct Fragment {
   // Nodes and arcs that nothing can change any more.
   std::vector<SettledNode> settled_nodes;
   std::vector<ArcKeys> settled_arcs;
-  std::vector<std::uint32_t> settled_bucket_counts;  // one per arc, or empty
-  std::vector<Bucket> settled_buckets;
+  ArcLists settled_lists;  // their embedding, if there is one
 
   // Regular vertices that only this chunk has, if SweepOptions asks for them, with their index in `arcs` or in
   // `settled_arcs`; ascending.
@@ -113,8 +112,7 @@ struct Fragment {
     passed.clear();
     settled_nodes.clear();
     settled_arcs.clear();
-    settled_bucket_counts.clear();
-    settled_buckets.clear();
+    settled_lists.clear();
     on_open_arcs.clear();
     on_settled_arcs.clear();
     triangle_count = 0;

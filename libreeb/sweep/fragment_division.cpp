@@ -63,10 +63,7 @@ void add_settled_buckets(SweepGraph& graph, SweepArc arc, Fragment& fragment) {
   constexpr std::uint32_t kPrefetchDistance = 8;  // arcs
   if (const SweepArc later(arc.value() + kPrefetchDistance); later < graph.arc_buckets.end_id())
     graph.buckets.prefetch(graph.arc_buckets[later]);
-  const std::size_t before = fragment.settled_buckets.size();
-  graph.buckets.drain(graph.arc_buckets[arc],
-                      [&](const BucketSum& bucket) { fragment.settled_buckets.push_back(bucket.mean()); });
-  fragment.settled_bucket_counts.push_back(static_cast<std::uint32_t>(fragment.settled_buckets.size() - before));
+  graph.buckets.drain_means(graph.arc_buckets[arc], fragment.settled_lists);
 }
 
 }  // namespace

@@ -53,10 +53,18 @@ void add_settled(io::BufferedWriter& out, const PartInfo& info, SegmentStore& st
     add_block(out, kNodes, nodes.size(), packed);
   }
   store.rewind_arcs();
-  for (PackedArcPiece piece; store.read_arcs(piece, kRecordsPerBlock, info.sweep().bucket_exponent);) {
+  std::vector<StoredArc> arcs;
+  for (ArcPiece piece; store.read_arcs(piece, kRecordsPerBlock, info.sweep().bucket_exponent);) {
+    const ArcListsView lists = piece.lists.view();
+    arcs.clear();
+    for (std::size_t i = 0; i < piece.arcs.size(); ++i) {
+      const auto list = lists.of(i);
+      const auto first = static_cast<std::uint32_t>(list.data() - lists.bytes.data());
+      arcs.push_back({piece.arcs[i], {first, static_cast<std::uint32_t>(list.size())}});
+    }
     packed.clear();
-    ArcCodec::encode(piece.records, piece.pool, packed);
-    add_block(out, kArcs, piece.records.size(), packed);
+    ArcCodec::encode(arcs, lists.bytes, packed);
+    add_block(out, kArcs, arcs.size(), packed);
   }
 }
 
@@ -202,14 +210,19 @@ void FragmentFile::copy_arcs(SegmentStore& store, bool with_buckets) {
   Block block{.packed = {}, .count = 0, .memory = store.budget().reserve("fragment", 0)};
   Reservation list_memory = store.budget().reserve("fragment", 0);
   std::vector<Bucket> buckets;
-  PackedArcPiece piece;
-  const std::optional<int> exponent = with_buckets ? info_.sweep().bucket_exponent : std::nullopt;
+  RecordBatch<StoredArc> batch;
+  std::vector<ArcKeys> arcs;
+  std::vector<std::uint64_t> list_ends;  // decode() puts the lists into the pool one after the other
+  const bool embeds = with_buckets && info_.sweep().bucket_exponent;
+  const int exponent = info_.sweep().bucket_exponent.value_or(0);
   for (std::uint64_t left = info_.settled_arcs; left != 0; left -= block.count) {
     const std::uint64_t begin = at_;
     read_block(kArcs, block);
-    piece.records.resize(static_cast<std::size_t>(block.count));
-    if (block.count > left || !ArcCodec::decode(block.packed, piece.records, piece.pool)) fail("is damaged", begin);
-    for (const StoredArc& arc : piece.records) {
+    batch.records.resize(static_cast<std::size_t>(block.count));
+    if (block.count > left || !ArcCodec::decode(block.packed, batch.records, batch.pool)) fail("is damaged", begin);
+    arcs.clear();
+    list_ends.clear();
+    for (const StoredArc& arc : batch.records) {
       check_keys(arc.keys.lo);
       check_keys(arc.keys.hi);
       buckets.clear();
@@ -217,15 +230,12 @@ void FragmentFile::copy_arcs(SegmentStore& store, bool with_buckets) {
         list_memory.resize(most * sizeof(Bucket));
         buckets.reserve(most);
       }
-      if (!(arc.keys.lo < arc.keys.hi) || !unpack_buckets(piece.payload(arc), buckets)) fail("is damaged", begin);
-      if (exponent && !are_buckets_of(arc.keys, buckets, *exponent)) fail("is damaged", begin);
+      if (!(arc.keys.lo < arc.keys.hi) || !unpack_buckets(batch.payload(arc), buckets)) fail("is damaged", begin);
+      if (embeds && !are_buckets_of(arc.keys, buckets, exponent)) fail("is damaged", begin);
+      arcs.push_back(arc.keys);
+      if (embeds) list_ends.push_back(arc.payload.first + std::uint64_t{arc.payload.size});
     }
-    if (exponent) {
-      store.add_arcs(piece, exponent);
-    } else {
-      for (StoredArc& arc : piece.records) arc.payload.size = 0;
-      store.add_arcs(piece, {});
-    }
+    store.add_arcs({arcs, {list_ends, batch.pool}, exponent});
   }
 }
 

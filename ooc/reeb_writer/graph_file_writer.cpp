@@ -8,6 +8,7 @@
 
 #include "libreeb/base/prefetch.h"
 #include "libreeb/base/sweep_key.h"
+#include "libreeb/graph/packed_buckets.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "ooc/reeb_writer/file_header.h"
 #include "ooc/reeb_writer/frame_size.h"
@@ -63,10 +64,10 @@ void GraphFileWriter::add_nodes(std::span<const SettledNode> nodes) {
   }
 }
 
-void GraphFileWriter::add_arcs(std::span<const ArcKeys> arcs, const ArcBucketsView& buckets) {
+void GraphFileWriter::add_arcs(std::span<const ArcKeys> arcs, const ArcListsView& lists) {
   end_nodes();
   rank(arcs, ranked_);
-  add_arcs(std::span<const FileArc>(ranked_.arcs), buckets);
+  add_arcs(std::span<const FileArc>(ranked_.arcs), lists);
 }
 
 void GraphFileWriter::end_nodes() {
@@ -131,7 +132,7 @@ void GraphFileWriter::rank_by_search(std::span<const ArcKeys> arcs, RankedArcs& 
   keys_->release_pages();
 }
 
-void GraphFileWriter::add_arcs(std::span<const FileArc> arcs, const ArcBucketsView& buckets) {
+void GraphFileWriter::add_arcs(std::span<const FileArc> arcs, const ArcListsView& lists) {
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     const FileArc arc{arcs[i].lo, arcs[i].hi, 0, kNeverDies};
     if (arc.lo >= arc.hi || arc.hi >= header_.nodes || (last_arc_ && !in_order(*last_arc_, arc)))
@@ -140,8 +141,8 @@ void GraphFileWriter::add_arcs(std::span<const FileArc> arcs, const ArcBucketsVi
     frame_.arcs.push_back(arc);
     ++header_.arcs;
     if (header_.flags.has_embedding) {
-      frame_.add_buckets(buckets.of(i));
-      buckets_ += buckets.count(i);
+      frame_.add_buckets(lists.of(i));
+      buckets_ += frame_.bucket_counts.back();
     }
     flush_if_full();
   }
@@ -213,14 +214,16 @@ void write_graph_file(const std::string& path, const FileMeta& meta, const ReebG
     nodes.clear();
   }
   std::vector<FileArc> arcs;
+  ArcLists lists;
   for (std::size_t first = 0; first < graph.arc_count(); first += arcs.size()) {
     arcs.clear();
     const std::size_t last = std::min(first + kItemsAtOnce, graph.arc_count());
     for (std::size_t i = first; i < last; ++i)
       arcs.push_back({graph.lo[i].value(), graph.hi[i].value(), 0, kNeverDies});
-    ArcBucketsView piece = buckets;
-    if (!buckets.empty()) piece.offsets = buckets.offsets.subspan(first, last - first + 1);
-    writer.add_arcs(std::span<const FileArc>(arcs), piece);
+    lists.clear();
+    if (!buckets.empty())
+      for (std::size_t i = first; i < last; ++i) lists.add(buckets.of(i));
+    writer.add_arcs(std::span<const FileArc>(arcs), lists.view());
   }
   writer.finish();
 }

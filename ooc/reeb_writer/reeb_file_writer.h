@@ -103,11 +103,11 @@ class GraphFileWriter {
   void rank(std::span<const ArcKeys> arcs, RankedArcs& ranked) const;
 
   // Looks up, too.
-  // REQUIRES: after all nodes; ascending by (lo, hi), over all calls; lo below hi. With an embedding, `buckets` has
+  // REQUIRES: after all nodes; ascending by (lo, hi), over all calls; lo below hi. With an embedding, `lists` has
   //           those of this batch.
-  void add_arcs(std::span<const ArcKeys> arcs, const ArcBucketsView& buckets = {});
+  void add_arcs(std::span<const ArcKeys> arcs, const ArcListsView& lists = {});
   // The same, with the ends given as ranks of nodes.
-  void add_arcs(std::span<const FileArc> arcs, const ArcBucketsView& buckets = {});
+  void add_arcs(std::span<const FileArc> arcs, const ArcListsView& lists = {});
 
   void finish();
   // The header that was written; complete after finish().

@@ -65,7 +65,7 @@ WrittenGraph write_graph(RunContext& run, const StoredGraph& graph, const FileMe
       [&](Arcs& arcs) { return store.read_arcs(arcs.piece, batch_arcs, graph.sweep.bucket_exponent); },
       [&](Arcs& arcs) { writer.rank(arcs.piece.arcs, arcs.ranked); },
       [&](const Arcs& arcs) {
-        writer.add_arcs(std::span<const FileArc>(arcs.ranked.arcs), arcs.piece.buckets.view());
+        writer.add_arcs(std::span<const FileArc>(arcs.ranked.arcs), arcs.piece.lists.view());
         tell(arcs.piece.arcs.size());
       });
   writer.finish();

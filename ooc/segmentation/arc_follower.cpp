@@ -110,7 +110,7 @@ FollowedGraph ArcFollower::read_graph() {
   graph.lo.reserve(arcs);
   graph.hi.reserve(arcs);
   followed.arc_of_number.resize(arcs);
-  PackedArcPiece some_arcs;
+  RecordBatch<StoredArc> some_arcs;
   std::size_t lo = 0;
   while (state_->arcs.read(some_arcs, kRecordsAtOnce)) {
     for (const StoredArc& arc : some_arcs.records) {

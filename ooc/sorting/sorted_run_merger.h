@@ -182,11 +182,12 @@ class SortedRunMerger {
   }
 
   // The next record of the run is read when this one wins, and so is the payload of this one. Neither was touched since
-  // the block was unpacked, and the blocks of all runs together do not fit the caches.
+  // the block was unpacked, and the blocks of all runs together do not fit the caches. Their first bytes are next to
+  // what was read last, so the last ones are fetched.
   static void prefetch_after([[maybe_unused]] const RecordBatch<Record>& block, const Head& head) {
     prefetch(reinterpret_cast<const std::byte*>(head.place + 2) - 1);
     if constexpr (CarriesPayload<Record>)
-      if (head.record.payload.size != 0) prefetch(block.pool.data() + head.record.payload.first);
+      if (const auto [first, size] = head.record.payload; size != 0) prefetch(block.pool.data() + first + size - 1);
   }
 
   // A total order of the runs that have records left; exhausted runs come after them.

@@ -5,13 +5,7 @@
 
 namespace reeb::ooc {
 
-void encode_buckets(std::span<const Bucket> buckets, int exponent, std::vector<std::byte>& payload) {
-  if (buckets.empty()) return;
-  ByteWriter(payload).varint(zigzag(static_cast<std::uint64_t>(exponent)));
-  pack_buckets(buckets, payload);
-}
-
-void encode_packed_buckets(std::span<const std::byte> packed, int exponent, std::vector<std::byte>& payload) {
+void encode_list(std::span<const std::byte> packed, int exponent, std::vector<std::byte>& payload) {
   if (packed.empty()) return;
   ByteWriter(payload).varint(zigzag(static_cast<std::uint64_t>(exponent)));
   payload.insert(payload.end(), packed.begin(), packed.end());

@@ -11,11 +11,9 @@
 
 namespace reeb::ooc {
 
-// Appends the payload: the exponent as a varint, then the packed list (packed_buckets.h). The payload of an arc without
-// buckets is empty.
-void encode_buckets(std::span<const Bucket> buckets, int exponent, std::vector<std::byte>& payload);
-// The same for a list that is already packed.
-void encode_packed_buckets(std::span<const std::byte> packed, int exponent, std::vector<std::byte>& payload);
+// Appends the payload of a packed list (packed_buckets.h): the exponent as a varint, then the list. The payload of an
+// arc without buckets is empty.
+void encode_list(std::span<const std::byte> packed, int exponent, std::vector<std::byte>& payload);
 
 // Appends the buckets of a payload, coarsened to `exponent`. False if the bytes are not a payload, or are coarser than
 // that.

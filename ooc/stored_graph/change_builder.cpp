@@ -54,7 +54,7 @@ void ChangeBuilder::add(const Denoised& part, const PackedLists& buckets, const 
 
 void ChangeBuilder::add_arc(const ChangedArc& arc, std::span<const std::byte> packed_buckets) {
   payload_.clear();
-  if (exponent_) encode_packed_buckets(packed_buckets, *exponent_, payload_);
+  if (exponent_) encode_list(packed_buckets, *exponent_, payload_);
   change_.arcs->add(arc, payload_);
   change_.buckets += packed_count(packed_buckets);
 }

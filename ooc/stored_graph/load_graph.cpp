@@ -21,16 +21,16 @@ NodeId node_of(const SweepKey& key, const NodeTable& table) {
 }
 
 // The ends of arcs as nodes. Arcs come by lower end, so each is found soon after the one before.
-void find_ends(std::span<const StoredArc> arcs, const std::vector<SweepKey>& nodes, const NodeTable& table,
+void find_ends(std::span<const ArcKeys> arcs, const std::vector<SweepKey>& nodes, const NodeTable& table,
                std::vector<NodeId>& lo, std::vector<NodeId>& hi) {
   constexpr std::size_t kAhead = 16;  // from one stage of fetching an upper end to the next
   lo.clear();
   hi.clear();
-  std::size_t last = arcs.empty() ? 0 : node_of(arcs[0].keys.lo, table).value();
+  std::size_t last = arcs.empty() ? 0 : node_of(arcs[0].lo, table).value();
   for (std::size_t i = 0; i < arcs.size(); ++i) {
-    if (i + 2 * kAhead < arcs.size()) table.prefetch_slot(arcs[i + 2 * kAhead].keys.hi);
-    if (i + kAhead < arcs.size()) table.prefetch_node(arcs[i + kAhead].keys.hi);
-    const auto& [low, high] = arcs[i].keys;
+    if (i + 2 * kAhead < arcs.size()) table.prefetch_slot(arcs[i + 2 * kAhead].hi);
+    if (i + kAhead < arcs.size()) table.prefetch_node(arcs[i + kAhead].hi);
+    const auto& [low, high] = arcs[i];
     while (last < nodes.size() && nodes[last] < low) ++last;
     const bool is_node = last < nodes.size() && nodes[last] == low;
     lo.push_back(is_node ? NodeId(static_cast<std::uint32_t>(last)) : node_of(low, table));
@@ -93,18 +93,18 @@ LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options, const Po
   if (options.bucket_exponent) loaded.buckets.reserve(arc_count);
   store.rewind_arcs();
   struct Piece {
-    PackedArcPiece arcs;
+    ArcPiece stored;
     std::vector<NodeId> lo, hi;
   };
   read_ahead<Piece>(
       store.background(),
-      [&](Piece& piece) { return store.read_arcs(piece.arcs, kRecordsAtOnce, options.bucket_exponent); },
-      [&](Piece& piece) { find_ends(piece.arcs.records, graph.nodes, table, piece.lo, piece.hi); },
+      [&](Piece& piece) { return store.read_arcs(piece.stored, kRecordsAtOnce, options.bucket_exponent); },
+      [&](Piece& piece) { find_ends(piece.stored.arcs, graph.nodes, table, piece.lo, piece.hi); },
       [&](const Piece& piece) {
         graph.lo.insert(graph.lo.end(), piece.lo.begin(), piece.lo.end());
         graph.hi.insert(graph.hi.end(), piece.hi.begin(), piece.hi.end());
         if (options.bucket_exponent)
-          for (const StoredArc& arc : piece.arcs.records) loaded.buckets.add_packed(piece.arcs.payload(arc));
+          for (std::size_t i = 0; i < piece.lo.size(); ++i) loaded.buckets.add_packed(piece.stored.lists.view().of(i));
         tell();
       });
   if (options.bucket_exponent)

@@ -157,7 +157,7 @@ SegmentStore::SegmentStore(const io::TempDir& temp, MemoryBudget& budget, const 
       arcs_("settled arcs", temp, budget, half_of(options, ".arcs")) {}
 
 void SegmentStore::add_arcs(const SettledArcs& settled) {
-  if (settled.bucket_counts.empty()) {
+  if (settled.lists.empty()) {
     constexpr std::size_t kArcsAtOnce = 1024;
     for (std::size_t first = 0; first < settled.arcs.size(); first += kArcsAtOnce) {
       plain_.clear();
@@ -167,22 +167,11 @@ void SegmentStore::add_arcs(const SettledArcs& settled) {
     }
     return;
   }
-  std::size_t first = 0;
-  for (std::size_t i = 0; i < settled.arcs.size(); first += settled.bucket_counts[i++]) {
+  for (std::size_t i = 0; i < settled.arcs.size(); ++i) {
+    const std::span<const std::byte> list = settled.lists.of(i);
     payload_.clear();
-    encode_buckets(settled.buckets.subspan(first, settled.bucket_counts[i]), settled.bucket_exponent, payload_);
+    encode_list(list, settled.bucket_exponent, payload_);
     arcs_.add({settled.arcs[i]}, payload_);
-    payload_bytes_ += payload_.size();
-  }
-  bucket_count_ += first;
-}
-
-void SegmentStore::add_arcs(const PackedArcPiece& piece, std::optional<int> bucket_exponent) {
-  for (const StoredArc& arc : piece.records) {
-    const std::span<const std::byte> list = piece.payload(arc);
-    payload_.clear();
-    if (bucket_exponent) encode_packed_buckets(list, *bucket_exponent, payload_);
-    arcs_.add({arc.keys}, payload_);
     payload_bytes_ += payload_.size();
     bucket_count_ += packed_count(list);
   }
@@ -314,23 +303,13 @@ bool SegmentStore::take_arcs(std::size_t limit, const Take& take) {
 
 bool SegmentStore::read_arcs(ArcPiece& piece, std::size_t limit, std::optional<int> bucket_exponent) {
   piece.arcs.clear();
-  piece.buckets.buckets.clear();
-  piece.buckets.offsets.assign(bucket_exponent ? 1 : 0, 0);
+  piece.lists.clear();
   return take_arcs(limit, [&](const ArcKeys& arc, std::span<const std::byte> payload) {
     piece.arcs.push_back(arc);
     if (!bucket_exponent) return;
-    decode_buckets_of(arc, payload, *bucket_exponent, piece.buckets.buckets);
-    piece.buckets.offsets.push_back(piece.buckets.buckets.size());
-  });
-}
-
-bool SegmentStore::read_arcs(PackedArcPiece& piece, std::size_t limit, std::optional<int> bucket_exponent) {
-  piece.clear();
-  return take_arcs(limit, [&](const ArcKeys& arc, std::span<const std::byte> payload) {
-    if (!bucket_exponent) return piece.add({arc}, {});
     const auto list = packed_list(payload, *bucket_exponent, coarsened_);
     if (!list) refuse_payload(arc, *bucket_exponent);
-    piece.add({arc}, *list);
+    piece.lists.add_packed(*list);
   });
 }
 
@@ -364,8 +343,8 @@ void copy_graph(SegmentStore& from, SegmentStore& to, std::optional<int> bucket_
   from.rewind_nodes();
   for (std::vector<SettledNode> nodes; from.read_nodes(nodes, kRecordsAtOnce); poll()) to.add_nodes(nodes);
   from.rewind_arcs();
-  for (PackedArcPiece piece; from.read_arcs(piece, kRecordsAtOnce, bucket_exponent); poll())
-    to.add_arcs(piece, bucket_exponent);
+  for (ArcPiece piece; from.read_arcs(piece, kRecordsAtOnce, bucket_exponent); poll())
+    to.add_arcs({piece.arcs, piece.lists.view(), bucket_exponent.value_or(0)});
 }
 
 }  // namespace reeb::ooc

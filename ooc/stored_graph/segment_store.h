@@ -10,7 +10,7 @@
 
 #include "io/file/temp_dir.h"
 #include "libreeb/base/memory_budget.h"
-#include "libreeb/graph/arc_buckets.h"
+#include "libreeb/graph/packed_buckets.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/port/graph_sink.h"
 #include "ooc/sorting/external_sort.h"
@@ -60,10 +60,8 @@ void decode_buckets_of(const ArcKeys& arc, std::span<const std::byte> payload, i
 // Consecutive arcs with their buckets, all of one exponent.
 struct ArcPiece {
   std::vector<ArcKeys> arcs;
-  ArcBuckets buckets;  // without offsets if no buckets are wanted
+  ArcLists lists;  // none if no buckets are wanted
 };
-// The same with packed lists (packed_buckets.h) as payloads.
-using PackedArcPiece = RecordBatch<StoredArc>;
 
 struct SegmentOptions {
   std::uint64_t allowance_bytes = 8 << 20;  // of the budget; half for nodes, half for arcs
@@ -86,8 +84,6 @@ class SegmentStore : public GraphSink {
 
   void add_nodes(std::span<const SettledNode> nodes) override { nodes_.add(nodes); }
   void add_arcs(const SettledArcs& settled) override;
-  // The packed lists have this exponent, if there are any.
-  void add_arcs(const PackedArcPiece& piece, std::optional<int> bucket_exponent);
   // Ends adding, and merges as far as memory requires: O(n) per merging pass.
   void finish();
 
@@ -109,7 +105,6 @@ class SegmentStore : public GraphSink {
   // Replaces `piece` by the next arcs in order: at most `limit`, fewer if they have many buckets. False at the end.
   // Buckets are delivered if an exponent is given. REQUIRES: it is not below any exponent that was added.
   bool read_arcs(ArcPiece& piece, std::size_t limit, std::optional<int> bucket_exponent = {});
-  bool read_arcs(PackedArcPiece& piece, std::size_t limit, std::optional<int> bucket_exponent = {});
 
   // The scans visit everything added, in unspecified order; parallel arcs keep their reading order. `wanted` is called
   // concurrently. A block with no wanted key is decoded only as far as its keys.
@@ -155,7 +150,7 @@ class SegmentStore : public GraphSink {
   std::size_t next_ = 0;          // and how many of its records were delivered
   bool at_end_ = false;           // of the stored arcs
   std::optional<ChangeReader> change_;
-  std::vector<StoredArc> plain_;
+  std::vector<StoredArc> plain_;  // of add_arcs()
   std::vector<std::byte> payload_;
   CoarsenedList coarsened_;
 };

@@ -99,15 +99,16 @@ void StoredHierarchy::read_nodes() {
 void StoredHierarchy::sort_arcs(SortedByUpperEnd& arcs, const Poll& poll) {
   store_.rewind_arcs();
   std::uint32_t lo = 0, arc = 0;
-  for (PackedArcPiece piece; store_.read_arcs(piece, kAtOnce, options_.bucket_exponent);) {
+  for (ArcPiece piece; store_.read_arcs(piece, kAtOnce, options_.bucket_exponent);) {
     if (poll) poll(static_cast<double>(arc) / arcs_);
-    for (const StoredArc& stored : piece.records) {
-      while (lo < nodes_ && key(NodeId(lo)) < stored.keys.lo) ++lo;
-      if (lo == nodes_ || key(NodeId(lo)) != stored.keys.lo)
-        throw BrokenGraph("an arc begins in vertex " + std::to_string(stored.keys.lo.vertex.value()) +
+    for (std::size_t i = 0; i < piece.arcs.size(); ++i) {
+      const ArcKeys& keys = piece.arcs[i];
+      while (lo < nodes_ && key(NodeId(lo)) < keys.lo) ++lo;
+      if (lo == nodes_ || key(NodeId(lo)) != keys.lo)
+        throw BrokenGraph("an arc begins in vertex " + std::to_string(keys.lo.vertex.value()) +
                           ", which is not a node");
-      arcs.add({stored.keys.hi, lo, arc});
-      if (lists_) lists_->replace(arc, piece.payload(stored));
+      arcs.add({keys.hi, lo, arc});
+      if (lists_) lists_->replace(arc, piece.lists.view().of(i));
       ++arc;
     }
   }

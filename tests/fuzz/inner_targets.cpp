@@ -246,7 +246,9 @@ std::vector<std::string> arc_blocks() {
       std::vector<Bucket> buckets;
       for (std::size_t k = 0; k < i % 4; ++k)
         buckets.push_back({static_cast<std::int64_t>(3 * i + k), 1 + 100 * k, {0.1, 0.5, value}});
-      ooc::encode_buckets(buckets, -3, pool);
+      std::vector<std::byte> list;
+      pack_buckets(buckets, list);
+      ooc::encode_list(list, -3, pool);
       arcs.push_back({{{value, VertexId(i)}, {value + 1, VertexId(i + 1000)}},
                       {first, static_cast<std::uint32_t>(pool.size()) - first}});
     }

@@ -34,14 +34,12 @@ struct EmbeddedGraph {
 struct EmbeddingSink : GraphSink, EmbeddedGraph {
   void add_nodes(std::span<const SettledNode> more) override { nodes.insert(nodes.end(), more.begin(), more.end()); }
   void add_arcs(const SettledArcs& more) override {
-    ASSERT_EQ(more.bucket_counts.size(), more.arcs.size());
-    std::size_t at = 0;
+    ASSERT_EQ(more.lists.ends.size(), more.arcs.size());
+    ASSERT_EQ(more.lists.ends.back(), more.lists.bytes.size());
     for (std::size_t i = 0; i < more.arcs.size(); ++i) {
-      const auto buckets = more.buckets.subspan(at, more.bucket_counts[i]);
-      arcs.push_back({more.arcs[i], {buckets.begin(), buckets.end()}, more.bucket_exponent});
-      at += buckets.size();
+      arcs.push_back({more.arcs[i], {}, more.bucket_exponent});
+      more.lists.unpack(i, arcs.back().buckets);
     }
-    ASSERT_EQ(at, more.buckets.size());
   }
 };
 

@@ -190,17 +190,34 @@ class ManyLists {
     for (std::size_t i = 0; i < kLists; ++i) {
       auto expected = models_[i].buckets.begin();
       const auto end = models_[i].buckets.end();
-      pool_.drain(lists_[i], [&](const BucketSum& bucket) {
+      std::vector<Bucket> means;
+      pool_.visit(lists_[i], [&](const BucketSum& bucket) {
         ASSERT_NE(expected, end);
         ASSERT_TRUE(same(bucket, expected->second)) << "bucket " << bucket.index;
         ++expected;
+        means.push_back(bucket.mean());
       });
       ASSERT_EQ(expected, end);
+      ASSERT_EQ(drained(lists_[i], i % 2 == 0), means);
       ASSERT_TRUE(lists_[i].empty());
     }
+    ASSERT_EQ(pool_.used(), 0u);
   }
 
  private:
+  // The means, by either way to take them out.
+  std::vector<Bucket> drained(BucketLists::List& list, bool packs) {
+    std::vector<Bucket> means;
+    ArcLists lists;
+    if (packs) {
+      pool_.drain_means(list, lists);
+      lists.view().unpack(0, means);
+    } else {
+      pool_.drain(list, [&](const BucketSum& bucket) { means.push_back(bucket.mean()); });
+    }
+    return means;
+  }
+
   static constexpr std::size_t kLists = 4;
   static constexpr double kMaxValue = 10;  // values are from -kMaxValue to kMaxValue
 

@@ -95,6 +95,37 @@ TEST(PackedBuckets, EveryPrefixIsRefused) {
 }
 
 // Most changes hit the same few lists, as in a hierarchy.
+// Lists of each kind come one after the other, and none of those before clear() shows.
+TEST(ArcLists, GiveBackWhatWasAdded) {
+  test::Random random(1);
+  ArcLists lists;
+  EXPECT_TRUE(lists.view().empty());
+  for (std::uint32_t round = 0; round < 200; ++round) {
+    lists.clear();
+    std::vector<std::vector<Bucket>> expected(test::below(random, 40));
+    for (std::vector<Bucket>& list : expected) {
+      list = random_list(random, round % 7);
+      if (test::below(random, 2) == 0) {
+        lists.add(list);
+        continue;
+      }
+      std::vector<std::byte> packed;
+      pack_buckets(list, packed);
+      lists.add_packed(packed);
+    }
+    const ArcListsView view = lists.view();
+    ASSERT_EQ(view.ends.size(), expected.size());
+    ASSERT_EQ(view.bytes.size(), expected.empty() ? 0 : view.ends.back());
+    ASSERT_GE(lists.memory_bytes(), view.bytes.size() + view.ends.size_bytes());
+    for (std::size_t arc = 0; arc < expected.size(); ++arc) {
+      ASSERT_EQ(unpacked(view.of(arc)), expected[arc]) << "round " << round << ", arc " << arc;
+      std::vector<Bucket> own{{7, 1, {}}};
+      view.unpack(arc, own);
+      ASSERT_TRUE(std::ranges::equal(std::span(own).subspan(1), expected[arc]));
+    }
+  }
+}
+
 TEST(PackedLists, ListsStayWhatTheyAreWhileOthersAreReplaced) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);

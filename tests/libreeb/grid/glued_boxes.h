@@ -41,7 +41,9 @@ class GluedBoxesSink : public GraphSink {
   }
   void add_arcs(const SettledArcs& settled) override {
     result.arcs.insert(result.arcs.end(), settled.arcs.begin(), settled.arcs.end());
-    for (const Bucket& bucket : settled.buckets) result.in_buckets += bucket.count;
+    std::vector<Bucket> buckets;
+    for (std::size_t i = 0; i < settled.lists.ends.size(); ++i) settled.lists.unpack(i, buckets);
+    for (const Bucket& bucket : buckets) result.in_buckets += bucket.count;
   }
   GluedBoxes result;
 };

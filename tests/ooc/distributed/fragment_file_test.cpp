@@ -41,8 +41,9 @@ void write_arc(const std::string& path, const io::TempDir& temp, const PartInfo&
   SegmentStore store(temp, budget);
   store.add_nodes(std::vector<SettledNode>{{lo, {}}, {hi, {}}});
   const ArcKeys arc{lo, hi};
-  const auto count = static_cast<std::uint32_t>(buckets.size());
-  store.add_arcs({std::span(&arc, 1), std::span(&count, 1), buckets, info.sweep().bucket_exponent.value()});
+  ArcLists lists;
+  lists.add(buckets);
+  store.add_arcs({std::span(&arc, 1), lists.view(), info.sweep().bucket_exponent.value()});
   store.finish();
   OpenPart open;
   open.live.options = info.sweep();

@@ -19,6 +19,7 @@
 #include "io/file/checksum.h"
 #include "libreeb/base/error.h"
 #include "libreeb/format/reeb_format.h"
+#include "libreeb/graph/packed_buckets.h"
 #include "ooc/reeb_writer/reeb_file_writer.h"
 #include "tests/ooc/reeb_file/made_up_hierarchy.h"
 #include "tests/support/files.h"
@@ -189,9 +190,9 @@ TEST(GraphFile, PiecesDoNotShowAndBucketsFollowTheirArcs) {
       std::vector<ArcKeys> arcs;
       for (std::size_t i = first; i < last; ++i)
         arcs.push_back({made.graph.nodes[made.graph.lo[i].value()], made.graph.nodes[made.graph.hi[i].value()]});
-      ArcBucketsView view = made.buckets.view();
-      view.offsets = view.offsets.subspan(first, last - first + 1);
-      writer.add_arcs(std::span<const ArcKeys>(arcs), view);
+      ArcLists lists;
+      for (std::size_t i = first; i < last; ++i) lists.add(made.buckets.view().of(i));
+      writer.add_arcs(std::span<const ArcKeys>(arcs), lists.view());
     }
     writer.finish();
     EXPECT_EQ(read_file(folder / "pieces.reeb"), expected) << "pieces of " << piece;

@@ -43,12 +43,9 @@ void add(SegmentStore& store, const EmbeddedGraph& made, bool embeds, Random& ra
   store.add_nodes(nodes);
   for (const std::size_t arc : order_of_adding(graph, random)) {
     const ArcKeys keys{graph.nodes[graph.lo[arc].value()], graph.nodes[graph.hi[arc].value()]};
-    const auto own = made.buckets.view().of(arc);
-    const auto count = static_cast<std::uint32_t>(own.size());
-    if (embeds)
-      store.add_arcs({std::span(&keys, 1), std::span(&count, 1), own, made.exponent});
-    else
-      store.add_arcs({std::span(&keys, 1)});
+    ArcLists lists;
+    if (embeds) lists.add(made.buckets.view().of(arc));
+    store.add_arcs({std::span(&keys, 1), lists.view(), made.exponent});
   }
 }
 
@@ -71,8 +68,9 @@ void expect_arcs(SegmentStore& store, std::size_t limit, std::optional<int> expo
       const ArcKeys expected{graph.nodes[graph.lo[arc].value()], graph.nodes[graph.hi[arc].value()]};
       ASSERT_EQ(piece.arcs[i], expected);
       if (!exponent) continue;
-      const auto own = piece.buckets.view().of(i), right = buckets.view().of(arc);
-      ASSERT_TRUE(std::equal(own.begin(), own.end(), right.begin(), right.end())) << "arc " << arc;
+      std::vector<Bucket> own;
+      piece.lists.view().unpack(i, own);
+      ASSERT_TRUE(std::ranges::equal(own, buckets.view().of(arc))) << "arc " << arc;
     }
   }
   ASSERT_EQ(arc, graph.arc_count());

@@ -178,7 +178,13 @@ std::vector<EmbeddedArc> expected_arcs(const EmbeddedArcs& all) {
 void add(SegmentStore& store, const EmbeddedArcs& all, std::size_t first, std::size_t last) {
   for (std::size_t i = first; i < last; ++i) {
     const auto& call = all.calls[i];
-    store.add_arcs({call.arcs, call.counts, call.buckets, call.exponent});
+    ArcLists lists;
+    auto next = call.buckets.begin();
+    for (const std::uint32_t count : call.counts) {
+      lists.add(std::span(next, count));
+      next += count;
+    }
+    store.add_arcs({call.arcs, lists.view(), call.exponent});
   }
 }
 
@@ -190,9 +196,9 @@ void expect_arcs(SegmentStore& store, const std::vector<EmbeddedArc>& expected, 
     for (std::size_t i = 0; i < piece.arcs.size(); ++i, ++next) {
       ASSERT_LT(next, expected.size());
       ASSERT_EQ(piece.arcs[i], expected[next].keys) << "arc " << next;
-      const auto own = piece.buckets.view().of(i);
-      ASSERT_TRUE(std::equal(own.begin(), own.end(), expected[next].buckets.begin(), expected[next].buckets.end()))
-          << "buckets of arc " << next;
+      std::vector<Bucket> own;
+      piece.lists.view().unpack(i, own);
+      ASSERT_EQ(own, expected[next].buckets) << "arc " << next;
     }
   }
   EXPECT_EQ(next, expected.size());
@@ -283,7 +289,7 @@ TEST(ArcPayload, AListIsUnpackedOnlyToCoarsenIt) {
   const std::vector<Bucket> buckets{{-3, 2, {1, 2, 3}}, {4, 1, {0.1, 0.2, 0.3}}, {5, 7, {4, 5, 6}}};
   std::vector<std::byte> list, payload;
   pack_buckets(buckets, list);
-  encode_buckets(buckets, -2, payload);
+  encode_list(list, -2, payload);
   CoarsenedList coarsened;
   const auto same = packed_list(payload, -2, coarsened);
   ASSERT_TRUE(same.has_value());
@@ -330,8 +336,9 @@ TEST(SegmentStore, BucketsOfALargerExponentThanTheLastAreSeen) {
   const io::TempDir temp(scratch.path());
   MemoryBudget budget;
   SegmentStore store(temp, budget);
-  store.add_arcs({std::vector<ArcKeys>{{{1.0, VertexId(0)}, {2.0, VertexId(1)}}}, std::vector<std::uint32_t>{1},
-                  std::vector<Bucket>{{0, 1, {}}}, 3});
+  ArcLists lists;
+  lists.add(std::array{Bucket{0, 1, {}}});
+  store.add_arcs({std::array{ArcKeys{{1.0, VertexId(0)}, {2.0, VertexId(1)}}}, lists.view(), 3});
   store.finish();
   ArcPiece piece;
   EXPECT_THROW(store.read_arcs(piece, 1, 2), std::logic_error);

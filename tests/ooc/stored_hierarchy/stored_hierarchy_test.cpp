@@ -58,16 +58,9 @@ class StoredHierarchyTest : public testing::Test {
       store.add_nodes(std::array{SettledNode{graph.nodes[node], graph.positions[node]}});
     for (std::size_t arc = 0; arc < graph.arc_count(); ++arc) {
       const std::array keys{ArcKeys{graph.nodes[graph.lo[arc].value()], graph.nodes[graph.hi[arc].value()]}};
-      SettledArcs settled;
-      settled.arcs = keys;
-      std::array<std::uint32_t, 1> count{};
-      if (given.bucket_exponent()) {
-        settled.buckets = given.buckets.view().of(arc);
-        count[0] = static_cast<std::uint32_t>(settled.buckets.size());
-        settled.bucket_counts = count;
-        settled.bucket_exponent = given.exponent;
-      }
-      store.add_arcs(settled);
+      ArcLists lists;
+      if (given.bucket_exponent()) lists.add(given.buckets.view().of(arc));
+      store.add_arcs({keys, lists.view(), given.exponent});
     }
     store.finish();
   }
