@@ -267,6 +267,20 @@ def test_nothing_is_left_on_disk(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
+def test_nothing_is_written_to_the_current_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    vertices, faces = torus(300, 200)
+    seen = []
+
+    def look(*_):
+        seen.append(sorted(path.name for path in tmp_path.iterdir()))
+
+    graph = reeb.compute(vertices, faces, progress=look)
+    reeb.segment(graph, vertices, faces, progress=look)
+    reeb.defects(vertices, faces, progress=look)
+    assert seen and not any(seen)
+
+
 def test_empty_lists_are_a_mesh_of_nothing():
     assert len(reeb.compute([], []).nodes) == 0
 

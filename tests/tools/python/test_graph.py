@@ -52,35 +52,40 @@ def test_levels_are_those_of_the_program(noisy):
     assert graph.levels["nodes"].max() == len(graph.nodes)
 
 
+class Mirror:
+    """A listener that keeps the graph it is told of."""
+
+    def __init__(self):
+        self.nodes, self.arcs = {}, {}
+
+    def node_added(self, node, vertex, value, position):
+        self.nodes[node] = vertex
+
+    def node_removed(self, node):
+        assert not any(node in arc for arc in self.arcs.values())
+        del self.nodes[node]
+
+    def arc_added(self, arc, lo, hi):
+        assert lo in self.nodes and hi in self.nodes
+        self.arcs[arc] = (lo, hi)
+
+    def arc_removed(self, arc):
+        del self.arcs[arc]
+
+    def check(self, view):
+        assert sorted(self.nodes.values()) == sorted(view.nodes["vertex"].tolist())
+        named = sorted((self.nodes[lo], self.nodes[hi]) for lo, hi in self.arcs.values())
+        vertex = view.nodes["vertex"]
+        assert named == sorted((vertex[lo], vertex[hi]) for lo, hi in view.arcs)
+
+
 def test_refine_and_coarsen_tell_a_listener(noisy):
     _, _, _, graph = noisy
-
-    class Mirror:
-        def __init__(self):
-            self.nodes, self.arcs = {}, {}
-
-        def node_added(self, node, vertex, value, position):
-            self.nodes[node] = vertex
-
-        def node_removed(self, node):
-            assert not any(node in arc for arc in self.arcs.values())
-            del self.nodes[node]
-
-        def arc_added(self, arc, lo, hi):
-            assert lo in self.nodes and hi in self.nodes
-            self.arcs[arc] = (lo, hi)
-
-        def arc_removed(self, arc):
-            del self.arcs[arc]
-
     mirror = Mirror()
     view = reeb.open(graph.path, nodes=10, listener=mirror)
 
     def check():
-        assert sorted(mirror.nodes.values()) == sorted(view.nodes["vertex"].tolist())
-        named = sorted((mirror.nodes[lo], mirror.nodes[hi]) for lo, hi in mirror.arcs.values())
-        vertex = view.nodes["vertex"]
-        assert named == sorted((vertex[lo], vertex[hi]) for lo, hi in view.arcs)
+        mirror.check(view)
 
     check()
     assert len(view.nodes) <= 10
@@ -100,6 +105,35 @@ def test_refine_and_coarsen_tell_a_listener(noisy):
         view.coarsen()
     check()
     assert len(view.nodes) == graph.levels["nodes"].min()
+
+
+def test_a_listener_that_raises_misses_nothing(noisy):
+    _, _, _, graph = noisy
+
+    class Raises(Mirror):
+        left = 0
+
+        def node_added(self, *node):
+            super().node_added(*node)
+            Raises.left -= 1
+            if Raises.left == 0:
+                raise ValueError("stop")
+
+    mirror = Raises()
+    view = reeb.open(graph.path, nodes=10, listener=mirror)
+    before = len(view.nodes)
+    Raises.left = 3
+    with pytest.raises(ValueError, match="stop"):
+        view.refine(nodes=60)
+    assert len(view.nodes) == before < len(mirror.nodes)
+    view.refine(nodes=60)  # tells the rest of what has failed
+    mirror.check(view)
+    view.coarsen("99%")
+    Raises.left = 3
+    with pytest.raises(ValueError, match="stop"):
+        view.refine(nodes=60)
+    view.coarsen("99%")  # tells the rest first, and then the way back
+    mirror.check(view)
 
 
 def test_skeletons(noisy):

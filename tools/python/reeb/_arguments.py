@@ -60,19 +60,24 @@ def described(thing):
 
 
 def is_number(thing):
-    """What float() takes, but for texts and complex numbers."""
+    """What float() takes, but for texts, complex numbers and times."""
     try:
-        is_real = isinstance(thing, (int, float, np.number, np.bool_)) and not isinstance(thing, np.complexfloating)
-        return is_real and float(thing) is not None
+        is_real = isinstance(thing, (int, float, np.number, np.bool_))
+        return is_real and not isinstance(thing, (np.complexfloating, np.timedelta64)) and float(thing) is not None
     except (TypeError, OverflowError):
         return False
+
+
+def is_amount(thing):
+    """A number that an argument can be. True is not 1.0 there: who writes denoise=True means something else."""
+    return is_number(thing) and not isinstance(thing, (bool, np.bool_))
 
 
 def whole(name, value, least, most=MOST):
     """An int within these limits."""
     try:
         number = int(value)
-        if number != value:
+        if number != value or isinstance(value, (bool, np.bool_)):
             raise ValueError
     except (TypeError, ValueError, OverflowError):
         raise Error(f"{name}={value!r} is not a whole number", f"a number from {least} on", kind="usage") from None

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from . import _reeb
-from ._arguments import described, is_number, text_bytes, vector
+from ._arguments import described, is_amount, text_bytes, vector
 from ._networks import is_network, parts_of_network, values_of_network
 from .errors import Error
 
@@ -185,7 +185,7 @@ def image_of_array(image, spacing, origin, nodata):
         raise Error("spacing has a zero, which gives all vertices of an axis the same place", hint, kind="usage")
     value = None
     if nodata is not None and not (isinstance(nodata, str) and nodata == "skip"):
-        if not is_number(nodata):
+        if not is_amount(nodata):
             raise Error(f"nodata={nodata!r} is not a number", 'a number, or "skip"', kind="usage")
         value = float(nodata)
     return _reeb.HeldMesh.of_image(image, origin, spacing, nodata is not None, value)

@@ -1,5 +1,6 @@
 """Reeb graphs, at any level of detail."""
 
+import collections
 import contextlib
 import io
 import math
@@ -12,7 +13,7 @@ import numpy as np
 from . import _reeb
 from ._arguments import (
     check_output,
-    is_number,
+    is_amount,
     is_path,
     path_bytes,
     printable,
@@ -118,7 +119,7 @@ class Graph:
         graph = cls.__new__(cls)
         graph._store, graph._version, graph._arrays, graph._asked = store, version, arrays, asked
         graph._pairs = graph._header = graph._levels = None
-        graph._listener, graph._progressive = listener, None
+        graph._listener, graph._progressive, graph._untold = listener, None, collections.deque()
         graph.result = result or {}
         graph.function = function or (graph.header["function"] if store is not None else "")
         return graph
@@ -236,7 +237,8 @@ class Graph:
 
         With a listener (reeb.open), its methods are called for each change: node_added(node, vertex, value,
         position), node_removed(node), arc_added(arc, lo, hi), arc_removed(arc). Nodes and arcs are named by numbers
-        that they keep.
+        that they keep. If a method raises, the graph stays at its level, and the next move begins with the changes
+        that were not told.
         """
         lines = [line[0] for line in self._level_lines()]
         if (threshold, nodes, memory) == (None, None, None):
@@ -467,7 +469,7 @@ class Graph:
             return file.finest_with_nodes(whole("nodes", nodes, 0))
         if memory is not None:
             return file.finest_with_memory(size("memory", memory))
-        if not isinstance(threshold, str) and (not is_number(threshold) or not threshold >= 0):
+        if not isinstance(threshold, str) and (not is_amount(threshold) or not threshold >= 0):
             raise Error(f"threshold={threshold!r} is not a threshold", 'as 0.01, or "0.1%"', kind="usage")
         least, greatest = self.range
         value = threshold
@@ -490,7 +492,9 @@ class Graph:
     def _listen(self, version):
         if self._progressive is None:
             self._progressive = _reeb.Progressive(self._need_file()[0])
-        for name, *change in self._progressive.go_to_version(version):
+        self._untold.extend(self._progressive.go_to_version(version))
+        while self._untold:
+            name, *change = self._untold.popleft()
             method = getattr(self._listener, name, None)
             if method is not None:
                 method(*change)

@@ -11,7 +11,7 @@ import numpy as np
 from . import _arrays, _reeb
 from ._arguments import (
     described,
-    is_number,
+    is_amount,
     is_path,
     path_bytes,
     printable,
@@ -311,7 +311,7 @@ def _grid(sizes):
 def _add_denoise(options, denoise):
     if denoise is None:
         return
-    if not isinstance(denoise, str) and not is_number(denoise):
+    if not isinstance(denoise, str) and not is_amount(denoise):
         raise Error(f"denoise={denoise!r} is not a threshold", 'as 0.01, or "0.1%"', kind="usage")
     text = denoise if isinstance(denoise, str) else repr(float(denoise))
     options["denoise"] = _reeb.parse_threshold("denoise", text_bytes("denoise", text), 0, 1)
@@ -450,7 +450,8 @@ def segment(
         functions = [None if is_of_values else graph.function]
         held, _ = _held(mesh, faces, values, functions, spacing, origin, nodata)
     file, version = graph._need_file()
-    with _Bar(progress) as report:
+    with _Bar(progress) as report, temporary_folder(temp_dir) as folder:
+        options["temp_dir"] = path_bytes(folder)
         return Segmentation(*_reeb.segment(held, file, version, options, report))
 
 
@@ -512,6 +513,7 @@ def defects(
     _add_common(options, memory, threads, format, temp_dir)
     files = _files(graphs)
     with _Bar(progress) as report, temporary_folder(temp_dir) as folder:
+        options["temp_dir"] = path_bytes(folder)
         if is_path(mesh):
             _refuse_arrays('name its graphs: graphs=["scan.reeb"]', faces)
             path = path_bytes(mesh)
