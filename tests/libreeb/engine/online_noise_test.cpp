@@ -6,6 +6,7 @@
 #include <iostream>
 #include <limits>
 
+#include "libreeb/engine/live_graph.h"
 #include "libreeb/noise/denoise.h"
 #include "tests/libreeb/engine/player.h"
 #include "tests/libreeb/engine/streamed_mesh.h"
@@ -86,8 +87,49 @@ TEST_F(OnlineNoise, TogetherWithTheLastPassEqualsTheDefinition) {
   EXPECT_GT(online_, all_ / 2) << "hardly anything is removed on the way";
 }
 
-// A settled saddle lost a leaf, and before it was contracted another of its arcs was written out.
-TEST_F(OnlineNoise, ASettledSaddleDisappearsWithItsLeaf) { check_case(20086495); }
+// A settled saddle loses a leaf. Before it is contracted, another of its arcs would be written out: the node at the
+// other end of that arc is examined first, and settles.
+//
+//   w 30       |
+//   t 20      / \            u is 19.5, so its arc is noise from the start: t does not settle while paths pass it.
+//   saddle   u   |
+//   10          / \          The leaf is 11.5, so its arc is noise only under the second threshold.
+//   x 0        |   leaf
+TEST_F(OnlineNoise, ASettledSaddleDisappearsWithItsLeaf) {
+  using State = LiveGraph::State;
+  KeepingSink sink;
+  LiveGraph live(sink, false);
+  live.set_options({.noise_below = 0.6});
+  const auto add_node = [&](std::uint64_t vertex, double value, State state) {
+    return live.add_node({value, VertexId(vertex)}, {}, state);
+  };
+  const auto x = add_node(0, 0, State::kIncomplete), saddle = add_node(1, 10, State::kComplete),
+             leaf = add_node(2, 11.5, State::kIncomplete), u = add_node(3, 19.5, State::kIncomplete),
+             t = add_node(4, 20, State::kComplete), w = add_node(5, 30, State::kIncomplete);
+  const auto to_saddle = live.add_arc(x, saddle), to_leaf = live.add_arc(saddle, leaf), to_t = live.add_arc(saddle, t),
+             from_u = live.add_arc(u, t), to_w = live.add_arc(t, w);
+  const auto from_leaf = live.add_reference(to_leaf, live.add_reference(to_saddle, LiveGraph::kNone));
+  const auto from_w = live.add_reference(to_w, live.add_reference(from_u, LiveGraph::kNone));
+  for (const auto arc : {to_saddle, to_leaf, to_t, from_u, to_w}) live.release(arc);
+  live.tidy();
+  ASSERT_EQ(live.state(saddle), State::kSettled);
+  ASSERT_EQ(live.state(t), State::kComplete);
+
+  live.set_options({.noise_below = 2});
+  live.drop_path(from_leaf);
+  live.drop_path(from_w);
+  live.complete(leaf);
+  live.tidy();
+  live.validate();
+  for (const auto node : {u, w, x}) {
+    live.complete(node);
+    live.tidy();
+  }
+  live.flush();
+  EXPECT_EQ(live.removed_pairs(), 2u);
+  EXPECT_EQ(sink.nodes, (std::vector<SweepKey>{{0, VertexId(0)}, {30, VertexId(5)}}));
+  EXPECT_EQ(sink.arcs, (std::vector<ArcKeys>{{{0, VertexId(0)}, {30, VertexId(5)}}}));
+}
 
 // Chunks with long paths through many splits, and a threshold that grows along the stream.
 TEST_F(OnlineNoise, AShareOfTheRangeSoFarLeadsToTheSameEnd) {
