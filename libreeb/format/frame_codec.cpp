@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "libreeb/base/byte_coding.h"
@@ -230,7 +231,7 @@ void GraphFrame::clear() {
 
 void GraphFrame::add_buckets(std::span<const std::byte> packed) {
   bucket_counts.push_back(static_cast<std::uint32_t>(packed_count(packed)));
-  unpack_buckets(packed, buckets);
+  if (!unpack_buckets(packed, buckets)) throw std::logic_error("GraphFrame: a list of buckets cannot be read");
 }
 
 void encode_graph_frame(const GraphFrame& frame, const FileFlags& flags, std::vector<std::byte>& bytes) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include <functional>
 #include <iterator>
 #include <random>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -205,6 +207,18 @@ TEST(GraphFile, PiecesDoNotShowAndBucketsFollowTheirArcs) {
   EXPECT_THROW(file.pairs(), Error);
   EXPECT_THROW(file.version_at(0.1), Error);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 2) << "scratch files are left";
+}
+
+// No arc silently loses its buckets.
+TEST(GraphFile, AListThatCannotBeReadIsRefused) {
+  const TemporaryFolder folder;
+  GraphFileWriter writer(folder / "a.reeb", {}, {.nodes = 2, .has_embedding = true});
+  writer.add_nodes(std::array{SettledNode{{0, VertexId(0)}, {}}, SettledNode{{1, VertexId(1)}, {}}});
+  std::vector<std::byte> list;
+  pack_buckets(std::array{Bucket{0, 1, {1, 2, 3}}}, list);
+  list.pop_back();
+  const std::array ends{std::uint64_t{list.size()}};
+  EXPECT_THROW(writer.add_arcs(std::array{FileArc{0, 1, 0, kNeverDies}}, {ends, list}), std::logic_error);
 }
 
 TEST(GraphFile, EmptyGraph) {
