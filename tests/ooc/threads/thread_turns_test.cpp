@@ -74,7 +74,9 @@ TEST(ThreadTurns, CountsTheFullSlots) {
     }
   });
   for (int filled = kTogether; filled <= 1000; filled += kTogether) {
-    while (turns.full() != 0) std::this_thread::yield();
+    while (turns.full() >= kTogether) std::this_thread::yield();
+    ASSERT_TRUE(turns.wait_until_used(0));  // the other thread might wait for more than the rest
+    ASSERT_EQ(turns.full(), 0u);
     ASSERT_EQ(used, filled);
     fill();
   }
