@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <atomic>
 #include <thread>
 #include <vector>
 
@@ -58,29 +59,33 @@ TEST(ThreadTurns, WaitsUntilWhatWasFilledIsUsed) {
 }
 
 // What the other thread did with a slot is visible once it is no longer counted.
+// What was done before used() is visible to who sees the new number. The other thread looks for a slot only when all of
+// a round are full: it would wait for more than the rest of a round, and nobody would wake it.
 TEST(ThreadTurns, CountsTheFullSlots) {
-  constexpr int kTogether = RingTurns::kSlots / 2;  // the other thread is woken for no fewer
+  constexpr int kTogether = RingTurns::kSlots / 2;
   ThreadTurns turns;
+  std::atomic<int> announced = 0;  // relaxed: it must not make `used` visible
   int used = 0;
-  const auto fill = [&turns] {
+  const auto fill = [&] {
     for (int i = 0; i < kTogether; ++i) ASSERT_TRUE(turns.filled());
+    announced.fetch_add(kTogether, std::memory_order_relaxed);
   };
   fill();
   EXPECT_EQ(turns.full(), std::size_t{kTogether});
   std::thread user([&] {
-    while (turns.next()) {
+    for (;; turns.used()) {
+      while (announced.load(std::memory_order_relaxed) == used) std::this_thread::yield();
+      if (!turns.next()) return;
       ++used;
-      turns.used();
     }
   });
   for (int filled = kTogether; filled <= 1000; filled += kTogether) {
-    while (turns.full() >= kTogether) std::this_thread::yield();
-    ASSERT_TRUE(turns.wait_until_used(0));  // the other thread might wait for more than the rest
-    ASSERT_EQ(turns.full(), 0u);
+    while (turns.full() != 0) std::this_thread::yield();
     ASSERT_EQ(used, filled);
     fill();
   }
   turns.close();
+  announced.fetch_add(1, std::memory_order_relaxed);
   user.join();
 }
 
