@@ -14,10 +14,10 @@ WHY = {
     "sums": "adding a vertex to the exact sum, the moment and the rim of its bucket takes 42 instructions, 21 a "
             "triangle; the rest finds, divides and joins buckets, and no other function takes an eighth of what is "
             f"added ({PROFILE})",
-    "buckets": "most arcs have a bucket of one vertex: to compress, write and read these positions alone takes 9 ns; to "
-               "find, store, sort and pack them mostly waits for memory, and designs with fewer steps took the same "
-               "time; noise removal alone adds 10 to 15 ns, most of it for two scans of all stored arcs for the short "
-               f"ones; no function but the compressor takes a sixteenth of what is added ({PROFILE})",
+    "buckets": "most arcs have a bucket of one vertex; compressing, writing and reading their positions alone takes "
+               "9 ns; the other steps mostly wait for memory, and a design without sums for single vertices took the "
+               "same time; noise removal alone adds 10 to 16 ns, most of it for two scans of all stored arcs for the "
+               f"short ones; no function but the compressor takes a sixteenth of what is added ({PROFILE})",
     "hierarchy": "cancelling takes more than half of the time, and mostly waits for nodes, arcs and lists of buckets from "
                  "all over memory; the file takes a quarter, since each arc that changes is stored with its whole list",
     "beyond memory": "pages of the graph are written and read again, 2 µs each",

@@ -21,10 +21,7 @@ struct FragmentArcs {
 void Glue::add(const Fragment& fragment, const std::function<void(std::size_t)>& grown) {
   graph_.set_options(fragment.options);
   removed_in_fragments_ += fragment.removed_pairs;
-  if (!fragment.settled_nodes.empty()) sink_->add_nodes(fragment.settled_nodes);
-  if (!fragment.settled_arcs.empty())
-    sink_->add_arcs(
-        {fragment.settled_arcs, fragment.settled_lists.view(), fragment.options.bucket_exponent.value_or(0)});
+  fragment.pass_settled_to(*sink_);
   add_nodes(fragment);
   add_arcs(fragment);
   if (log_ != nullptr) place_regular(fragment);

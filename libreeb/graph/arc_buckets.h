@@ -36,7 +36,7 @@ struct ArcListsView {
 
   bool empty() const { return ends.empty(); }
   std::span<const std::byte> of(std::size_t arc) const {
-    if (empty()) return bytes;
+    if (empty()) return {};
     const std::size_t begin = arc == 0 ? 0 : ends[arc - 1];
     return bytes.subspan(begin, ends[arc] - begin);
   }

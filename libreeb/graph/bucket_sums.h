@@ -186,7 +186,7 @@ class BucketLists {
     list.last = kNone;
   }
 
-  // The same for the list of the next arc in `lists`, which gets the means.
+  // Packs the means of all buckets, as the list of the next arc in `lists`, and leaves the list empty.
   void drain_means(List& list, ArcLists& lists);
 
   // As drain(), and the list stays.

@@ -92,24 +92,17 @@ void BoxGlue::add(const Fragment& fragment) {
   tree.fragment.arcs = fragment.arcs;
   copy_buckets(fragment, tree.fragment);
   note_nodes(fragment);
-  pass_on_settled(fragment);
+  fragment.pass_settled_to(*sink_);
   for_each_join(fragment.shared_faces, tree, [&](std::size_t i, std::size_t axis) {
     union_.run(trees_[i].fragment, tree.fragment, axis, fragment.options, result_);
     trees_.resize(i);
     removed_pairs_ += result_.removed_pairs;
-    pass_on_settled(result_);
+    result_.pass_settled_to(*sink_);
     std::swap(tree.fragment, result_);
     forget_settled(tree.fragment);
   });
   result_ = {};
   if (tree.fragment.shared_faces != 0) trees_.push_back(std::move(tree));
-}
-
-void BoxGlue::pass_on_settled(const Fragment& fragment) {
-  if (!fragment.settled_nodes.empty()) sink_->add_nodes(fragment.settled_nodes);
-  if (!fragment.settled_arcs.empty())
-    sink_->add_arcs(
-        {fragment.settled_arcs, fragment.settled_lists.view(), fragment.options.bucket_exponent.value_or(0)});
 }
 
 // With the vertices that are passed. One that is a node in no box is regular: it is on the arc that passes it in the

@@ -53,7 +53,6 @@ class BoxGlue {
 
   template <class Join>
   void for_each_join(BoxFaces faces, Tree& tree, const Join& join) const;
-  void pass_on_settled(const Fragment& fragment);
   void note_nodes(const Fragment& fragment);
   void copy_buckets(const Fragment& fragment, Fragment& tree);
 

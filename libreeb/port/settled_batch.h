@@ -15,7 +15,7 @@ class SettledBatch {
   std::size_t size() const { return nodes_.size() + arcs_.size(); }
   void add_node(const SettledNode& node) { nodes_.push_back(node); }
   void add_arc(const ArcKeys& arc) { arcs_.push_back(arc); }
-  // The embedding of the arc that was added last: takes what the list holds.
+  // The embedding of the arc that was added last. Leaves the list empty.
   void add_buckets(BucketLists& buckets, BucketLists::List& list) { buckets.drain_means(list, lists_); }
 
   // Passes all of them on to the sink, and keeps the memory.

@@ -2,6 +2,11 @@
 
 namespace reeb {
 
+void Fragment::pass_settled_to(GraphSink& sink) const {
+  if (!settled_nodes.empty()) sink.add_nodes(settled_nodes);
+  if (!settled_arcs.empty()) sink.add_arcs({settled_arcs, settled_lists.view(), options.bucket_exponent.value_or(0)});
+}
+
 std::size_t Fragment::memory_bytes() const {
   return nodes.capacity() * sizeof(Node) + positions.capacity() * sizeof(Point) + arcs.capacity() * sizeof(Arc) +
          (edges.capacity() + closed_edges.capacity()) * sizeof(SharedEdge) +

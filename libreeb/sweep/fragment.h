@@ -16,6 +16,7 @@
 #include "libreeb/graph/packed_buckets.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/graph/settled_node.h"
+#include "libreeb/port/graph_sink.h"
 #include "libreeb/sweep/chunk.h"
 #include "libreeb/sweep/sweep_options.h"
 
@@ -94,6 +95,8 @@ struct Fragment {
 
   std::size_t triangle_count = 0;  // of the chunk
 
+  // Passes the settled nodes and arcs on to the sink.
+  void pass_settled_to(GraphSink& sink) const;
   std::size_t memory_bytes() const;
   void clear() {
     options = {};

@@ -57,10 +57,11 @@ void add_settled(io::BufferedWriter& out, const PartInfo& info, SegmentStore& st
   for (ArcPiece piece; store.read_arcs(piece, kRecordsPerBlock, info.sweep().bucket_exponent);) {
     const ArcListsView lists = piece.lists.view();
     arcs.clear();
+    std::uint32_t first = 0;
     for (std::size_t i = 0; i < piece.arcs.size(); ++i) {
-      const auto list = lists.of(i);
-      const auto first = static_cast<std::uint32_t>(list.data() - lists.bytes.data());
-      arcs.push_back({piece.arcs[i], {first, static_cast<std::uint32_t>(list.size())}});
+      const auto size = static_cast<std::uint32_t>(lists.of(i).size());
+      arcs.push_back({piece.arcs[i], {first, size}});
+      first += size;
     }
     packed.clear();
     ArcCodec::encode(arcs, lists.bytes, packed);

@@ -94,7 +94,6 @@ TEST(PackedBuckets, EveryPrefixIsRefused) {
   }
 }
 
-// Most changes hit the same few lists, as in a hierarchy.
 // Lists of each kind come one after the other, and none of those before clear() shows.
 TEST(ArcLists, GiveBackWhatWasAdded) {
   test::Random random(1);
@@ -126,6 +125,7 @@ TEST(ArcLists, GiveBackWhatWasAdded) {
   }
 }
 
+// Most changes hit the same few lists, as in a hierarchy.
 TEST(PackedLists, ListsStayWhatTheyAreWhileOthersAreReplaced) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
