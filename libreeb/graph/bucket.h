@@ -71,10 +71,12 @@ class BucketIndexer {
     return cut_off - (scaled < static_cast<double>(cut_off) ? 1 : 0);
   }
   int exponent() const noexcept { return exponent_; }
+  // 2^-exponent, or 0 if that is not well within the normal numbers.
+  double scale() const noexcept { return scale_; }
 
  private:
   int exponent_;
-  double scale_;  // 2^-exponent, or 0 if that is no normal number
+  double scale_;
 };
 
 // Of the buckets over a range of values.

@@ -144,13 +144,14 @@ class BucketLists {
   }
 
   // Makes the buckets 0, 1, ... (count - 1), for the vertices of a sweep. The caller sets their sums, and then links
-  // each to the end of a list. REQUIRES: no other bucket was made since start().
+  // each to the end of a list, or drops it. REQUIRES: no other bucket was made since start().
   std::span<BucketSum> make(std::size_t count);
   // REQUIRES: the list's last index < the bucket's.
   void link(List& list, Index b) {
     links_[b].index = sums_[b].index;
     link_last(list, b);
   }
+  void drop(Index b) { free_bucket(b); }
 
   // Like all that add up buckets, these throw what BucketSum::check_room() does.
   //

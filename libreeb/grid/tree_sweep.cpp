@@ -22,7 +22,7 @@ void TreeSweep::visit(const SweptChunk& swept, const ContourTree& tree, std::uin
     const BoxFaces faces = swept.chunk.uses[local.value()];
     if (!embeds_ || (faces & kHighFaces) != 0) return;  // a later box has it
     if (faces == kUsedHereOnly)
-      builder_.note_regular(arc, VertexRank(v));
+      builder_.note_regular(arc, local);
     else
       passed_.emplace_back(local, arc);
     return;

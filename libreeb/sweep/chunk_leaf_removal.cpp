@@ -148,8 +148,4 @@ void ChunkLeafRemoval::detach(SweepNode node, Direction d, SweepArc arc) {
   nodes_[node].arcs_xor[d] ^= arc.value();
 }
 
-bool ChunkLeafRemoval::is_used_here_only(SweepNode node) const {
-  return swept_->uses(graph_->nodes[node].vertex) == kUsedHereOnly;
-}
-
 }  // namespace reeb

@@ -44,7 +44,7 @@ class ChunkLeafRemoval {
   void move_buckets(SweepNode leaf, SweepArc arc, Direction d);
   void attach(SweepNode node, Direction d, SweepArc arc);
   void detach(SweepNode node, Direction d, SweepArc arc);
-  bool is_used_here_only(SweepNode node) const;
+  bool is_used_here_only(SweepNode node) const { return graph_->nodes[node].uses == kUsedHereOnly; }
   bool is_noise(SweepArc arc) const { return graph_->length(graph_->arcs[arc]) < noise_below_; }
   bool embeds() const { return !graph_->arc_buckets.empty(); }
   double value(SweepNode node) const { return graph_->nodes[node].key.value; }

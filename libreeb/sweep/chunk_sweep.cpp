@@ -248,6 +248,9 @@ struct ChunkSweep::Scratch {
     side.queue.push_back(beyond);
   }
 
+  void note_regular(std::uint32_t v, std::uint32_t label_root) {
+    builder.note_regular(labels.arc(label_root), LocalVertex(ranks.order()[v]));
+  }
   void note_if_shared(std::uint32_t lo, std::uint32_t hi, SweepNode node, SweepArc arc) {
     if ((uses[lo] & uses[hi]) != 0) shared_edges.note_branch(VertexRank(lo), VertexRank(hi), node, arc);
   }
@@ -347,7 +350,7 @@ void ChunkSweep::Scratch::visit(std::uint32_t v) {
   const bool shared = (uses[v] & ~unsigned{kCountedElsewhere}) != 0;
   if (joined && below.size() == 1 && !shared) {  // a regular vertex
     label_lows(v, below[0]);
-    if (notes_regular && uses[v] == kUsedHereOnly) builder.note_regular(labels.arc(below[0]), VertexRank(v));
+    if (notes_regular && uses[v] == kUsedHereOnly) note_regular(v, below[0]);
     return;
   }
   const SweepNode node = builder.add_node(VertexRank(v));
@@ -386,7 +389,7 @@ bool ChunkSweep::Scratch::pass_regular(std::uint32_t v) {
   crossings.set_unlinked(2 * middles.back() + 1);
   const std::uint32_t low_first = stars.low_first(v), last_low = stars.low_last(v) - 1;
   for (std::uint32_t i = 0; i < kMostLows; ++i) crossings.start(std::min(low_first + i, last_low), root);
-  if (notes_regular) builder.note_regular(labels.arc(root), VertexRank(v));
+  if (notes_regular) note_regular(v, root);
   return true;
 }
 

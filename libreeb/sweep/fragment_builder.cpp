@@ -23,7 +23,10 @@ SweepArc FragmentBuilder::add_arc(SweepNode lower_node) {
 }
 
 void FragmentBuilder::end_sweep(const SweptChunk& swept) {
-  for (SweepGraph::Node& node : graph_.nodes) node.key = swept.key(node.vertex);
+  for (SweepGraph::Node& node : graph_.nodes) {
+    node.key = swept.key(node.vertex);
+    node.uses = swept.uses(node.vertex);
+  }
   if (options_.bucket_exponent) embedding_.run(graph_, swept, arc_of_regular_, *options_.bucket_exponent);
 }
 
@@ -54,8 +57,8 @@ void FragmentBuilder::add_followed(const SweptChunk& swept, Fragment& fragment) 
   std::uint32_t settled = 0;
   for (const SweepGraph::Arc& arc : graph_.arcs)
     settled_number_.push_back(arc.open == FragmentArc::none() ? settled++ : 0);
-  for (VertexRank v; v < arc_of_regular_.end_id(); ++v) {
-    const SweepArc arc = arc_of_regular_[v];
+  for (VertexRank v; v.value() < swept.order.size(); ++v) {
+    const SweepArc arc = arc_of_regular_[swept.local(v)];
     if (arc == SweepArc::none()) continue;
     const SweepKey vertex = swept.key(v);
     if (const FragmentArc open = graph_.arcs[arc].open; open != FragmentArc::none())
@@ -67,12 +70,12 @@ void FragmentBuilder::add_followed(const SweptChunk& swept, Fragment& fragment) 
 
 void FragmentBuilder::finish_tree(const SweptChunk& swept, Fragment& fragment) {
   start_fragment(swept, fragment);
-  mark_arcs_between_used(swept);
+  mark_arcs_between_used();
   division_.run(graph_, swept, options_, fragment);
 }
 
 // Takes leaves away that no other chunk uses, until there are none.
-void FragmentBuilder::mark_arcs_between_used(const SweptChunk& swept) {
+void FragmentBuilder::mark_arcs_between_used() {
   degrees_.assign(graph_.nodes.size(), 0);
   arcs_xor_.assign(graph_.nodes.size(), 0);
   const auto toggle = [&](SweepNode n, SweepArc arc, int change) {
@@ -87,7 +90,7 @@ void FragmentBuilder::mark_arcs_between_used(const SweptChunk& swept) {
     toggle(arc.hi, a, 1);
   }
   const auto is_unused_leaf = [&](SweepNode n) {
-    return degrees_[n.value()] == 1 && swept.uses(graph_.nodes[n].vertex) == kUsedHereOnly;
+    return degrees_[n.value()] == 1 && graph_.nodes[n].uses == kUsedHereOnly;
   };
   leaves_.clear();
   for (SweepNode n; n < graph_.nodes.end_id(); ++n)
@@ -110,8 +113,8 @@ void FragmentBuilder::sort_steps(const SweptChunk& swept, const SharedEdges& sha
   steps_.clear();
   for (std::uint32_t e = 0; e < shared.size(); ++e) steps_.emplace_back(shared[e].place, e, false);
   for (SweepNode n; n < graph_.nodes.end_id(); ++n) {
-    const VertexRank v = graph_.nodes[n].vertex;
-    if (swept.uses(v) == kUsedEarlier) steps_.emplace_back(swept.last_place(v), n.value(), true);
+    const SweepGraph::Node& node = graph_.nodes[n];
+    if (node.uses == kUsedEarlier) steps_.emplace_back(swept.last_place(node.vertex), n.value(), true);
   }
   std::sort(steps_.begin(), steps_.end());
 }

@@ -26,7 +26,7 @@ class FragmentBuilder {
   // Notes that the node has this arc and no other.
   void note_leaf(SweepNode node, SweepArc arc) { graph_.leaves.push_back({node, arc}); }
   // Notes a regular vertex, which no other chunk uses, on the arc. REQUIRES: the options say that they are noted.
-  void note_regular(SweepArc arc, VertexRank v) { arc_of_regular_[v] = arc; }
+  void note_regular(SweepArc arc, LocalVertex v) { arc_of_regular_[v] = arc; }
   // Sets the arc up from `node` that a path takes unless another branch is noted for it.
   void set_main_branch(SweepNode node, SweepArc arc) { graph_.nodes[node].main_branch = arc; }
 
@@ -66,7 +66,7 @@ class FragmentBuilder {
   };
 
   void start_fragment(const SweptChunk& swept, Fragment& fragment);
-  void mark_arcs_between_used(const SweptChunk& swept);
+  void mark_arcs_between_used();
   void add_followed(const SweptChunk& swept, Fragment& fragment);
   void sort_steps(const SweptChunk& swept, const SharedEdges& shared);
   void trace_paths(const SharedEdges& shared, Fragment& fragment);
@@ -77,11 +77,11 @@ class FragmentBuilder {
   ChunkEmbedding embedding_;
   ChunkLeafRemoval leaf_removal_;
   FragmentDivision division_;
-  IdVector<VertexRank, SweepNode> node_of_;        // set for nodes only
-  IdVector<VertexRank, SweepArc> arc_of_regular_;  // of other vertices, none()
-  std::vector<PackedStep> steps_;                  // sorted
-  std::vector<SweepArc> path_arcs_;                // as in the fragment
-  std::vector<std::uint32_t> degrees_, arcs_xor_;  // of a tree, by node
+  IdVector<VertexRank, SweepNode> node_of_;         // set for nodes only
+  IdVector<LocalVertex, SweepArc> arc_of_regular_;  // of other vertices, none()
+  std::vector<PackedStep> steps_;                   // sorted
+  std::vector<SweepArc> path_arcs_;                 // as in the fragment
+  std::vector<std::uint32_t> degrees_, arcs_xor_;   // of a tree, by node
   std::vector<SweepNode> leaves_;
   std::vector<std::uint32_t> settled_number_;  // by arc of the sweep
 };

@@ -7,39 +7,33 @@
 namespace reeb {
 namespace {
 
-// Sets how far monotone paths from each node lead. Arcs below an arc come before it.
-void find_reaches(const SweepGraph& graph, IdVector<SweepNode, ValueRange>& reaches) {
+// Finds how far monotone paths from each node lead, and sets Node::near_noise. NearNoise::notice() sets it for the live
+// graph, where the threshold can still rise. Arcs below an arc come before it, so when an arc is passed on the way
+// down, both reaches that tell whether it is near noise are final.
+void find_reaches(SweepGraph& graph, double noise_below, IdVector<SweepNode, NodeReach>& reaches) {
   reaches.resize(graph.nodes.size());
   for (SweepNode n; n < graph.nodes.end_id(); ++n) {
     const double value = graph.nodes[n].key.value;
-    reaches[n] = {value, value};
+    reaches[n] = {value, {value, value}};
   }
-  for (SweepArc a; a < graph.arcs.end_id(); ++a) {
-    const SweepGraph::Arc& arc = graph.arcs[a];
-    if (!arc.gone()) reaches[arc.hi].min = std::min(reaches[arc.hi].min, reaches[arc.lo].min);
-  }
+  for (const SweepGraph::Arc& arc : graph.arcs)
+    if (!arc.gone()) reaches[arc.hi].range.min = std::min(reaches[arc.hi].range.min, reaches[arc.lo].range.min);
   for (std::uint32_t a = graph.arcs.end_id().value(); a-- > 0;) {
     const SweepGraph::Arc& arc = graph.arcs[SweepArc(a)];
-    if (!arc.gone()) reaches[arc.lo].max = std::max(reaches[arc.lo].max, reaches[arc.hi].max);
-  }
-}
-
-// Sets Node::near_noise. NearNoise::notice() does the same for the live graph, where the threshold can still rise.
-void find_near_noise(SweepGraph& graph, double noise_below, const IdVector<SweepNode, ValueRange>& reaches) {
-  for (const SweepGraph::Arc& arc : graph.arcs) {
     if (arc.gone()) continue;
-    SweepGraph::Node &lo = graph.nodes[arc.lo], &hi = graph.nodes[arc.hi];
-    const double low = lo.key.value, high = hi.key.value;
-    if (high - low >= noise_below) continue;
-    if (high - reaches[arc.lo].min < noise_below || reaches[arc.hi].max - low < noise_below)
-      lo.near_noise = hi.near_noise = true;
+    NodeReach& lo = reaches[arc.lo];
+    const NodeReach& hi = reaches[arc.hi];
+    lo.range.max = std::max(lo.range.max, hi.range.max);
+    if (hi.value - lo.value < noise_below &&
+        (hi.value - lo.range.min < noise_below || hi.range.max - lo.value < noise_below))
+      graph.nodes[arc.lo].near_noise = graph.nodes[arc.hi].near_noise = true;
   }
 }
 
 // Finds which nodes can still become (1, 1) nodes, or get further arcs. As in LiveGraph, a node that no other chunk
 // uses cannot change if one of its sides has no arc, or has two arcs of which one is on no path. A node near noise can
 // change while any of its arcs is on a path.
-void find_changing_nodes(SweepGraph& graph, const SweptChunk& swept) {
+void find_changing_nodes(SweepGraph& graph) {
   using Side = SweepGraph::Side;
   auto& nodes = graph.nodes;
   const auto add = [](Side& side, bool referenced) {
@@ -55,7 +49,7 @@ void find_changing_nodes(SweepGraph& graph, const SweptChunk& swept) {
   const auto lasts = [](const Side& side) { return !side.any || (side.several && side.loose); };
   for (SweepGraph::Node& node : nodes) {
     const bool stays = node.near_noise ? !node.up.tied && !node.down.tied : lasts(node.up) || lasts(node.down);
-    node.can_change = swept.uses(node.vertex) != kUsedHereOnly || !(stays || node.lost_arcs);
+    node.can_change = node.uses != kUsedHereOnly || !(stays || node.lost_arcs);
   }
 }
 
@@ -70,11 +64,8 @@ void add_settled_buckets(SweepGraph& graph, SweepArc arc, Fragment& fragment) {
 
 void FragmentDivision::run(SweepGraph& graph, const SweptChunk& swept, const SweepOptions& options,
                            Fragment& fragment) {
-  if (options.noise_below > 0) {
-    find_reaches(graph, reaches_);
-    find_near_noise(graph, options.noise_below, reaches_);
-  }
-  find_changing_nodes(graph, swept);
+  if (options.noise_below > 0) find_reaches(graph, options.noise_below, reaches_);
+  find_changing_nodes(graph);
   divide_arcs(graph, options.bucket_exponent.has_value(), fragment);
   add_nodes(graph, swept, fragment);
   add_arcs(graph, fragment);
@@ -118,11 +109,11 @@ void FragmentDivision::add_nodes(SweepGraph& graph, const SweptChunk& swept, Fra
     if (n == SweepNode::none()) continue;
     SweepGraph::Node& node = graph.nodes[n];
     node.open = FragmentNode(static_cast<std::uint32_t>(fragment.nodes.size()));
-    fragment.nodes.push_back({node.key, swept.uses(node.vertex), node.lost_arcs});
+    fragment.nodes.push_back({node.key, node.uses, node.lost_arcs});
     if (fragment.options.noise_below > 0) {
       const double far = kNoiseAhead * fragment.options.noise_below;
-      fragment.nodes.back().far_down = node.key.value - reaches_[n].min >= far;
-      fragment.nodes.back().far_up = reaches_[n].max - node.key.value >= far;
+      fragment.nodes.back().far_down = node.key.value - reaches_[n].range.min >= far;
+      fragment.nodes.back().far_up = reaches_[n].range.max - node.key.value >= far;
     }
     if (!swept.chunk.positions.empty()) fragment.positions.push_back(swept.position(node.vertex));
   }

@@ -24,10 +24,11 @@ struct SweepGraph {
     bool any = false, several = false, loose = false, tied = false;
   };
   struct Node {
-    SweepKey key{};                            // set when the sweep is over
+    SweepKey key{};                            // set when the sweep is over, as are the uses
     VertexRank vertex;                         // its vertex
     SweepArc main_branch = SweepArc::none();   // the arc up that a path takes unless another one is noted for it
     FragmentNode open = FragmentNode::none();  // its id in the fragment, or none()
+    std::uint8_t uses = 0;                     // of its vertex, as in Chunk
     bool gone = false;                         // removed as noise, or contracted
     Side up{}, down{};
     bool near_noise = false;  // it has an arc that might become a leaf's, and noise

@@ -16,21 +16,19 @@
 
 namespace reeb {
 
-struct alignas(32) WideSum {
-  // x, y, z and the number of vertices, in units of 2^-44.
-  std::array<double, 4> high{}, low{};
-  std::array<float, 4> rim = {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF, 0};  // and a number that is not used
+struct WideSum {
+  std::array<double, 3> high{};  // of x, y, z, in units of 2^-44
   double moment = 0;
+  std::array<double, 3> low{};
+  double count = 0;
+  std::array<float, 4> rim = {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF, 0};  // and a number that is not used
 
   BucketSum to_bucket() const;  // without its index
 };
 
-// Whether this processor can run add_wide().
-bool can_add_wide() noexcept;
-
 // Adds vertex i, at positions[i], to sums[buckets[i]], or to the last sum if there is none of this number. Returns how
-// many vertices it has added, from the first on. It stops before a vertex that is too far from the origin, after 2^19
-// vertices, and before the last one. REQUIRES: can_add_wide(); there is a sum; there are as many buckets as positions.
+// many vertices it has added, from the first on: all, unless there are more than 2^19, or one is too far from the
+// origin. REQUIRES: has_avx2(); there is a sum; there are as many buckets as positions.
 std::size_t add_wide(std::span<WideSum> sums, std::span<const std::uint32_t> buckets, std::span<const Point> positions);
 
 }  // namespace reeb
