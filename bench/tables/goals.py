@@ -11,7 +11,7 @@ WHY = {
     "tiles": "pieces that come in no order are sorted on disk, or glued with long borders",
     "noise": "the noise at the borders of tiles stays in memory until the tiles beside them come",
     "random order": "sorting the mesh on disk by position takes half of the time",
-    "sums": "adding a vertex to the exact sum, the moment and the rim of its bucket takes 42 instructions, 21 a "
+    "sums": "adding a vertex to the exact sum, the moment and the rim of its bucket takes 44 instructions, 22 a "
             "triangle; the rest finds, divides and joins buckets, and no other function takes an eighth of what is "
             f"added ({PROFILE})",
     "buckets": "most arcs have a bucket of one vertex; compressing, writing and reading their positions alone takes "
