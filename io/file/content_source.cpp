@@ -201,7 +201,7 @@ class PeekedInput final : public RawInput {
 std::unique_ptr<ContentSource> stream_source(const std::string& name, std::unique_ptr<RawInput> raw, Empty empty,
                                              std::shared_ptr<const InputFile> file = nullptr) {
   auto peeked = std::make_unique<PeekedInput>(std::move(raw));
-  const auto compression = detect_compression(peeked->head());
+  const auto compression = detect_compression(peeked->head(), name);
   auto source = std::make_unique<StreamSource>(name, decompress(name, std::move(peeked), compression), std::move(file));
   if (source->view(0, 1).empty() && empty == Empty::kRefused) throw_empty(name);
   return source;
@@ -218,7 +218,7 @@ std::unique_ptr<RawInput> open_pipe(const std::string& path) {
 
 std::unique_ptr<ContentSource> open_content(std::shared_ptr<const InputFile> file) {
   auto plain = std::make_unique<FileSource>(file->path(), file, kInOrder);
-  if (detect_compression(plain->view(0)) == Compression::kNone) return plain;
+  if (detect_compression(plain->view(0), file->path()) == Compression::kNone) return plain;
   return stream_source(file->path(), std::make_unique<FileInput>(file), file->empty(), file);
 }
 

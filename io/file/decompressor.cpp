@@ -167,8 +167,8 @@ class ZstdFilter {
   std::shared_ptr<ZSTD_DStream> stream_;  // Boost copies its filters
   std::vector<char> chunk_;
   ZSTD_inBuffer given_{nullptr, 0, 0};
-  bool inside_frame_ = false;  // the last frame is not complete
-  bool flushing_ = false;      // more output may be waiting without more input
+  bool inside_frame_ = true;  // the last frame is not complete; there is one at least
+  bool flushing_ = false;     // more output may be waiting without more input
 };
 
 class DecompressedInput final : public RawInput {
@@ -216,9 +216,14 @@ class DecompressedInput final : public RawInput {
 
 }  // namespace
 
-Compression detect_compression(std::string_view first_bytes) {
-  if (first_bytes.starts_with("\x1F\x8B")) return Compression::kGzip;
-  if (first_bytes.starts_with("\x28\xB5\x2F\xFD")) return Compression::kZstd;
+Compression detect_compression(std::string_view first_bytes, const std::string& name) {
+  static constexpr std::string_view kGzipMagic = "\x1F\x8B", kZstdMagic = "\x28\xB5\x2F\xFD";
+  const std::string suffix = name_suffix(name);
+  const auto starts = [&](std::string_view magic, std::string_view with_suffix) {
+    return first_bytes.starts_with(magic) || (magic.starts_with(first_bytes) && suffix == with_suffix);
+  };
+  if (starts(kGzipMagic, ".gz")) return Compression::kGzip;
+  if (starts(kZstdMagic, ".zst")) return Compression::kZstd;
   return Compression::kNone;
 }
 

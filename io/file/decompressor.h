@@ -27,7 +27,8 @@ class RawInput {
 
 enum class Compression { kNone, kGzip, kZstd };
 
-Compression detect_compression(std::string_view first_bytes);
+// By the first bytes. A file that ends among them, and so is cut, is told by its name.
+Compression detect_compression(std::string_view first_bytes, const std::string& name);
 
 // The content of `raw`: any number of gzip members or zstd frames, one after the other.
 // read() THROWS: Error{kBadInput} with `name` and the byte offset in the compressed file where the

@@ -221,7 +221,9 @@ MeshFormat detect_format(ContentSource& source, const std::string& path) {
   const std::string_view head = without_byte_order_mark(source.view(0));
   if (parse_off_keyword(first_word(skip_comments(head)))) return MeshFormat::kOff;
   if (has_binary_stl_size(head, source.size()) && content_suffix(path) == ".stl") return MeshFormat::kBinaryStl;
-  if (is_streaming_binary(head) || has_streaming_comment(head)) return MeshFormat::kStreaming;
+  if (is_streaming_binary(head)) return MeshFormat::kStreaming;
+  // Some programs write such comments into OBJ files, too.
+  if (has_streaming_comment(head) && content_suffix(path) != ".obj") return MeshFormat::kStreaming;
   const bool text = is_text(head);
   if (starts_with_solid(head)) return text ? MeshFormat::kAsciiStl : MeshFormat::kBinaryStl;
   if (text) return detect_text(head, path);

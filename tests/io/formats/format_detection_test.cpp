@@ -58,6 +58,8 @@ TEST(FormatDetection, StreamingTextAgainstObj) {
   EXPECT_EQ(detect(body, "mesh.sma"), MeshFormat::kStreaming);
   EXPECT_EQ(detect(body, "MESH.SMA"), MeshFormat::kStreaming);
   EXPECT_EQ(detect("# a\n# nverts 3\n" + body), MeshFormat::kStreaming);
+  EXPECT_EQ(detect("# nverts 3\n" + body, "mesh.obj"), MeshFormat::kObj);
+  EXPECT_EQ(detect("# nverts 3\n" + body + "x 1\n", "mesh.obj"), MeshFormat::kStreaming);
   EXPECT_EQ(detect(body + "# nverts 3\n"), MeshFormat::kObj);
   EXPECT_EQ(detect(std::string("\0\1\2\3", 4)), MeshFormat::kStreaming);
 }

@@ -163,6 +163,19 @@ TEST(Readers, PackedFilesOfSeveralPartsAndUnderAnyName) {
   }
 }
 
+// OBJ and streaming meshes may be empty files.
+TEST(Readers, PackedFilesThatAreCutAmongTheirFirstBytesAreNotEmpty) {
+  const std::string plain = write_file("plain", "v 0 0 0\n");
+  for (const std::string name : {"cut.obj", "cut.sma"})
+    for (const auto& [tool, suffix] : {std::pair("gzip", ".gz"), std::pair("zstd -q", ".zst")}) {
+      const std::string packed = test::read_file(run_on(tool, plain, suffix));
+      for (std::size_t size = 0; size < 6; ++size) {
+        const std::string path = write_file(name + suffix, packed.substr(0, size));
+        EXPECT_THROW(read_all(*open_mesh(path)), Error) << path << ", " << size << " bytes";
+      }
+    }
+}
+
 // Tapes fill their blocks with zeros.
 TEST(Readers, ZerosAfterTheLastMemberOfGzipAreIgnored) {
   const std::string packed = test::read_file(run_on("gzip", write_file("plain", ascii_ply()), ".gz"));
