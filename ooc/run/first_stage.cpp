@@ -7,6 +7,7 @@
 
 #include "io/file/atomic_file.h"
 #include "libreeb/base/error.h"
+#include "libreeb/port/wrapped_reader.h"
 #include "ooc/chunks/last_use_sidecar.h"
 #include "ooc/chunks/spooled_mesh.h"
 #include "ooc/grids/grid_chunks.h"
@@ -38,13 +39,13 @@ ChunkPlace place_of(const Checkpoint* start) { return start != nullptr ? start->
 
 // Ends an interrupted run while no triangle comes. Otherwise the run ends after the current chunk, where it can be
 // saved; chunks in flight get kSecondsForChunks.
-class PolledReader : public MeshReader {
+class PolledReader : public WrappedReader {
  public:
-  PolledReader(std::unique_ptr<MeshReader> reader, const ResumableRun& run) : reader_(std::move(reader)), run_(run) {}
+  PolledReader(std::unique_ptr<MeshReader> reader, const ResumableRun& run)
+      : WrappedReader(std::move(reader)), run_(run) {}
 
-  const MeshInfo& info() const override { return reader_->info(); }
   bool read(MeshBatch& batch) override {
-    const bool some = reader_->read(batch);
+    const bool some = WrappedReader::read(batch);
     const bool may_end = batch.simplex_count() == 0 && run_.is_interrupted();
     if (!may_end)
       waiting_.reset();
@@ -54,17 +55,10 @@ class PolledReader : public MeshReader {
       run_.check_interruption();
     return some;
   }
-  std::unique_ptr<IndexedMesh> indexed() const override { return reader_->indexed(); }
-  bool leave_out_simplices() override { return reader_->leave_out_simplices(); }
-  std::uint64_t bytes_read() const override { return reader_->bytes_read(); }
-  std::uint64_t memory_bytes() const override { return reader_->memory_bytes(); }
-  std::string memory_hint() const override { return reader_->memory_hint(); }
-  std::vector<std::string> warnings() const override { return reader_->warnings(); }
 
  private:
   static constexpr double kSecondsForChunks = 0.2;
 
-  std::unique_ptr<MeshReader> reader_;
   const ResumableRun& run_;
   std::optional<Stopwatch> waiting_;  // since the interruption was seen, with no triangle since then
 };

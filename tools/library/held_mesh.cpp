@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libreeb/base/error.h"
+#include "libreeb/port/wrapped_reader.h"
 
 namespace reeb {
 namespace {
@@ -15,24 +16,17 @@ namespace {
               "mesh_reader.h says what a reader delivers");
 }
 
-class CheckedReader : public MeshReader {
+class CheckedReader : public WrappedReader {
  public:
   CheckedReader(std::unique_ptr<MeshReader> reader, std::size_t properties)
-      : reader_(std::move(reader)), properties_(properties) {}
+      : WrappedReader(std::move(reader)), properties_(properties) {}
 
-  const MeshInfo& info() const override { return reader_->info(); }
   bool read(MeshBatch& batch) override {
-    if (!reader_->read(batch)) return false;
+    if (!WrappedReader::read(batch)) return false;
     check_columns(batch);
     check_vertices(batch);
     return true;
   }
-  std::unique_ptr<IndexedMesh> indexed() const override { return reader_->indexed(); }
-  bool leave_out_simplices() override { return reader_->leave_out_simplices(); }
-  std::uint64_t bytes_read() const override { return reader_->bytes_read(); }
-  std::uint64_t memory_bytes() const override { return reader_->memory_bytes(); }
-  std::string memory_hint() const override { return reader_->memory_hint(); }
-  std::vector<std::string> warnings() const override { return reader_->warnings(); }
 
  private:
   void check_columns(const MeshBatch& batch) const {
@@ -73,7 +67,6 @@ class CheckedReader : public MeshReader {
              std::to_string(vertices_));
   }
 
-  std::unique_ptr<MeshReader> reader_;
   std::size_t properties_;
   std::uint64_t vertices_ = 0;  // that were delivered, or skipped
 };
