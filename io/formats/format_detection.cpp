@@ -182,9 +182,15 @@ std::string_view whole_lines(std::string_view text) { return text.substr(0, text
 // third byte would be a compression that is not known.
 bool may_be_big_endian_nifti(std::string_view head) { return head.starts_with(std::string_view("\0\0\1", 3)); }
 
+// Whether a streaming mesh announces itself in this text. Some programs write such comments into OBJ files, too.
+bool announces_stream(std::string_view text, const std::string& path) {
+  return has_streaming_comment(text) && content_suffix(path) != ".obj";
+}
+
 // Whether these first bytes of a pipe are enough to recognize a streaming mesh.
-bool starts_streaming(std::string_view head) {
-  return is_streaming_binary(head) || has_streaming_comment(whole_lines(head)) || has_streaming_line(whole_lines(head));
+bool starts_streaming(std::string_view head, const std::string& path) {
+  const std::string_view lines = whole_lines(head);
+  return is_streaming_binary(head) || announces_stream(lines, path) || has_streaming_line(lines);
 }
 
 std::string_view without_byte_order_mark(std::string_view head) {
@@ -215,15 +221,13 @@ MeshFormat detect_format(ContentSource& source, const std::string& path) {
     for (const std::size_t min_bytes : {1u, 80u}) {
       const std::string_view head = source.view(0, min_bytes);
       if (may_be_big_endian_nifti(head)) break;
-      if (starts_streaming(head)) return MeshFormat::kStreaming;
+      if (starts_streaming(head, path)) return MeshFormat::kStreaming;
     }
   if (const auto marked = marked_content(source)) return marked->format;
   const std::string_view head = without_byte_order_mark(source.view(0));
   if (parse_off_keyword(first_word(skip_comments(head)))) return MeshFormat::kOff;
   if (has_binary_stl_size(head, source.size()) && content_suffix(path) == ".stl") return MeshFormat::kBinaryStl;
-  if (is_streaming_binary(head)) return MeshFormat::kStreaming;
-  // Some programs write such comments into OBJ files, too.
-  if (has_streaming_comment(head) && content_suffix(path) != ".obj") return MeshFormat::kStreaming;
+  if (is_streaming_binary(head) || announces_stream(head, path)) return MeshFormat::kStreaming;
   const bool text = is_text(head);
   if (starts_with_solid(head)) return text ? MeshFormat::kAsciiStl : MeshFormat::kBinaryStl;
   if (text) return detect_text(head, path);

@@ -1,6 +1,7 @@
 // A reader that passes on another one. What derives from it changes what is read.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>

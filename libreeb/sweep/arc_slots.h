@@ -21,7 +21,8 @@ struct ArcSlots {
 inline constexpr std::uint32_t kNoSlot = std::uint32_t{1} << 31;
 
 // Sets result[v] to the slot of vertex v, on arc arcs[v] or none. `slots` has those of each arc, and of no arc.
-// REQUIRES: has_avx2(); the indexer has a scale; all spans have the same size but for `slots`.
+// REQUIRES: has_avx2(); the indexer has a scale; indices of all values are less than 2^30 from `first_index`, and not
+// below it; all spans have the same size but for `slots`.
 void find_slots(std::span<const double> values, const IdVector<LocalVertex, SweepArc>& arcs,
                 std::span<const ArcSlots> slots, const BucketIndexer& indexer, std::int64_t first_index,
                 std::span<std::uint32_t> result);

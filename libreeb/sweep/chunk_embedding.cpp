@@ -1,6 +1,7 @@
 #include "libreeb/sweep/chunk_embedding.h"
 
 #include <algorithm>
+#include <span>
 
 #include "libreeb/sweep/avx2.h"
 
@@ -16,12 +17,14 @@ void ChunkEmbedding::run(SweepGraph& graph, const SweptChunk& swept, const IdVec
   fill_buckets(graph, swept);
 }
 
-// Gives each arc a slot for each index from that of its lower end to that of its upper end. False if they are so many
-// that most would stay empty, or have so few vertices that wide sums would not pay.
+// Gives each arc a slot for each index from that of its lower end to that of its upper end. False if that is not
+// possible (there are no positions, no AVX2, too many vertices, or indices too far apart), or does not pay: slots have
+// less than eight vertices each.
 bool ChunkEmbedding::place_slots(const SweepGraph& graph, const SweptChunk& swept, const BucketIndexer& indexer) {
   constexpr std::int64_t kVerticesPerSlot = 8, kMostIndices = std::int64_t{1} << 30;
   const auto n = static_cast<std::uint32_t>(swept.order.size());
-  if (n == 0 || swept.chunk.positions.empty() || indexer.scale() == 0 || !has_avx2()) return false;
+  if (n == 0 || n > kMostWideVertices || swept.chunk.positions.empty()) return false;
+  if (indexer.scale() == 0 || !has_avx2()) return false;
   first_index_ = indexer(swept.value(VertexRank(0)));
   if (indexer(swept.value(VertexRank(n - 1))) - first_index_ >= kMostIndices) return false;
   clear_with_room(slots_, graph.arcs.size() + 1);
@@ -38,7 +41,7 @@ bool ChunkEmbedding::place_slots(const SweepGraph& graph, const SweptChunk& swep
   return end != 0;
 }
 
-// False if some vertices are too far from the origin, or if they are too many.
+// False if some vertices are too far from the origin.
 bool ChunkEmbedding::fill_slots(SweepGraph& graph, const SweptChunk& swept, const IdVector<LocalVertex, SweepArc>& arcs,
                                 const BucketIndexer& indexer) {
   const std::uint32_t count = slots_[slots_.size() - 2].end;

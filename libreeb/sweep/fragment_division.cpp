@@ -7,9 +7,9 @@
 namespace reeb {
 namespace {
 
-// Finds how far monotone paths from each node lead, and sets Node::near_noise. NearNoise::notice() sets it for the live
-// graph, where the threshold can still rise. Arcs below an arc come before it, so when an arc is passed on the way
-// down, both reaches that tell whether it is near noise are final.
+// Finds how far monotone paths from each node lead, and sets Node::near_noise. NearNoise::notice() does the same for
+// the live graph, where the threshold can still rise. Arcs below an arc come before it, so when an arc is passed on the
+// way down, both reaches that tell whether it is near noise are final.
 void find_reaches(SweepGraph& graph, double noise_below, IdVector<SweepNode, NodeReach>& reaches) {
   reaches.resize(graph.nodes.size());
   for (SweepNode n; n < graph.nodes.end_id(); ++n) {

@@ -29,12 +29,11 @@ BucketSum WideSum::to_bucket() const {
 // in none is added to a sum that is not used.
 [[gnu::target("avx2")]] std::size_t add_wide(std::span<WideSum> all_sums, std::span<const std::uint32_t> buckets,
                                              std::span<const Point> positions) {
-  constexpr std::size_t kMostVertices = std::size_t{1} << 19;
   constexpr double kLeastFarSquare = 0x1p48;
   if (positions.empty()) return 0;
   WideSum* const sums = all_sums.data();  // stays in a register: no write to a sum can change it
   const auto last_sum = static_cast<std::uint32_t>(all_sums.size() - 1);
-  const std::size_t count = std::min(positions.size(), kMostVertices);
+  const std::size_t count = std::min(positions.size(), kMostWideVertices);
   const std::array<Point, 2> last_position = {positions[count - 1], Point{}};
   // Where this is added and taken away again, a number is rounded to a multiple of kHighUnit.
   const __m256d rounder = _mm256_set1_pd(1.5 * 0x1p52 * kHighUnit);

@@ -16,6 +16,7 @@
 
 namespace reeb {
 
+// The three numbers of `high` and the moment are one vector, and so are those of `low` and the count.
 struct WideSum {
   std::array<double, 3> high{};  // of x, y, z, in units of 2^-44
   double moment = 0;
@@ -25,10 +26,13 @@ struct WideSum {
 
   BucketSum to_bucket() const;  // without its index
 };
+static_assert(offsetof(WideSum, moment) == 24 && offsetof(WideSum, low) == 32 && offsetof(WideSum, count) == 56);
+
+inline constexpr std::size_t kMostWideVertices = std::size_t{1} << 19;
 
 // Adds vertex i, at positions[i], to sums[buckets[i]], or to the last sum if there is none of this number. Returns how
-// many vertices it has added, from the first on: all, unless there are more than 2^19, or one is too far from the
-// origin. REQUIRES: has_avx2(); there is a sum; there are as many buckets as positions.
+// many vertices it has added, from the first on: all, unless there are more than kMostWideVertices, or one is too far
+// from the origin. REQUIRES: has_avx2(); there is a sum; there are as many buckets as positions.
 std::size_t add_wide(std::span<WideSum> sums, std::span<const std::uint32_t> buckets, std::span<const Point> positions);
 
 }  // namespace reeb

@@ -3,8 +3,12 @@
 
 #include <unistd.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
+#include "io/file/zstd_codec.h"
 #include "io/formats/format_names.h"
 #include "io/images/image_format.h"
 #include "tests/io/formats/mesh_files.h"
@@ -62,6 +66,18 @@ TEST(FormatDetection, StreamingTextAgainstObj) {
   EXPECT_EQ(detect("# nverts 3\n" + body + "x 1\n", "mesh.obj"), MeshFormat::kStreaming);
   EXPECT_EQ(detect(body + "# nverts 3\n"), MeshFormat::kObj);
   EXPECT_EQ(detect(std::string("\0\1\2\3", 4)), MeshFormat::kStreaming);
+}
+
+// Of packed files and pipes the size is not known.
+TEST(FormatDetection, StreamingTextAgainstObjWhereItIsPacked) {
+  const auto detect_packed = [](const std::string& text, const std::string& name) {
+    std::vector<std::byte> packed;
+    zstd_compress(std::as_bytes(std::span(text)), 1, packed);
+    return detect({reinterpret_cast<const char*>(packed.data()), packed.size()}, name);
+  };
+  const std::string text = "# nverts 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2/2 3/3\n";
+  EXPECT_EQ(detect_packed(text, "mesh.obj.zst"), MeshFormat::kObj);
+  EXPECT_EQ(detect_packed(text, "mesh.zst"), MeshFormat::kStreaming);
 }
 
 TEST(FormatDetection, StreamingTextWithoutHeadShowsInItsLines) {

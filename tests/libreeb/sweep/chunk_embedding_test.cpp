@@ -84,6 +84,7 @@ void compare(ChunkEmbedding& embedding, Random& random) {
     });
   }
   EXPECT_EQ(count, expected.size());
+  EXPECT_EQ(graph.buckets.used(), expected.size());
 }
 
 TEST(ChunkEmbedding, HasEachVertexInTheBucketOfItsArcAndValue) {
