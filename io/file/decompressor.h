@@ -27,7 +27,7 @@ class RawInput {
 
 enum class Compression { kNone, kGzip, kZstd };
 
-// By the first bytes. A file that ends among them, and so is cut, is told by its name.
+// By the first bytes. If a file was cut so short that they do not tell, its name does.
 Compression detect_compression(std::string_view first_bytes, const std::string& name);
 
 // The content of `raw`: any number of gzip members or zstd frames, one after the other.

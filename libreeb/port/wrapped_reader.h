@@ -1,4 +1,4 @@
-// A reader that passes on another one. What derives from it changes what is read.
+// A reader that passes each call on to another reader. Derived classes override what they change.
 #pragma once
 
 #include <cstdint>

@@ -58,9 +58,8 @@ TEST(ThreadTurns, WaitsUntilWhatWasFilledIsUsed) {
   user.join();
 }
 
-// What the other thread did with a slot is visible once it is no longer counted.
-// What was done before used() is visible to who sees the new number. The other thread looks for a slot only when all of
-// a round are full: it would wait for more than the rest of a round, and nobody would wake it.
+// What the other thread did with a slot is visible once full() no longer counts it. The other thread looks for a slot
+// only when a whole round is announced: if it waited for slots in the middle of a round, nobody would wake it.
 TEST(ThreadTurns, CountsTheFullSlots) {
   constexpr int kTogether = RingTurns::kSlots / 2;
   ThreadTurns turns;

@@ -69,7 +69,7 @@ def is_number(thing):
 
 
 def is_amount(thing):
-    """A number, as an argument. True is none: who writes denoise=True does not mean 1."""
+    """A number as an argument. True does not count as one: denoise=True does not mean 1."""
     return is_number(thing) and not isinstance(thing, (bool, np.bool_))
 
 
